@@ -1,0 +1,5 @@
+#include "vtkRadiosityArrays.h"
+
+#include "vtkObjectFactory.h"
+
+vtkStandardNewMacro(vtkRadiosityArrays);

@@ -1,0 +1,203 @@
+#include "vtkTriangleMeshAdapter.h"
+
+#include "Common/Core/Error.h"
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
+#include "vtkCellData.h"
+#include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkRadiosityArrays.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace lambert
+{
+namespace
+{
+/// Values of a data array of any type as `components` floats a tuple; empty where there is none.
+template <class T>
+std::vector<T> ReadTuples(vtkDataArray* array, int components, const char* name)
+{
+  std::vector<T> values;
+  if (!array)
+  {
+    return values;
+  }
+  if (array->GetNumberOfComponents() != components)
+  {
+    throw Error(std::string("The array ") + name + " has " +
+      std::to_string(array->GetNumberOfComponents()) + " components; it needs " +
+      std::to_string(components) + ".");
+  }
+  values.resize(static_cast<size_t>(array->GetNumberOfTuples()));
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  {
+    float* tuple = reinterpret_cast<float*>(&values[static_cast<size_t>(i)]);
+    for (int c = 0; c < components; ++c)
+    {
+      tuple[c] = static_cast<float>(array->GetComponent(i, c));
+    }
+  }
+  return values;
+}
+
+template <class T>
+std::vector<T> ReadScalars(vtkDataArray* array)
+{
+  std::vector<T> values;
+  if (array)
+  {
+    values.resize(static_cast<size_t>(array->GetNumberOfTuples()));
+    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+    {
+      values[static_cast<size_t>(i)] = static_cast<T>(array->GetComponent(i, 0));
+    }
+  }
+  return values;
+}
+
+template <class Array, class T>
+void WriteScalars(vtkDataSetAttributes* data, const char* name, const std::vector<T>& values)
+{
+  if (values.empty())
+  {
+    return;
+  }
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  data->AddArray(array);
+}
+
+template <class T>
+vtkSmartPointer<vtkFloatArray> FloatArray(
+  const char* name, int components, const std::vector<T>& values)
+{
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
+  if (!values.empty())
+  {
+    std::memcpy(array->GetPointer(0), values.data(), values.size() * sizeof(T));
+  }
+  return array;
+}
+}
+
+TriangleMesh TriangleMeshFromPolyData(vtkPolyData* input)
+{
+  TriangleMesh mesh;
+  if (!input || !input->GetPoints())
+  {
+    return mesh;
+  }
+
+  // Points.
+  vtkPointData* pointData = input->GetPointData();
+  mesh.positions = ReadTuples<Vec3f>(input->GetPoints()->GetData(), 3, "Points");
+  mesh.normals = ReadTuples<Vec3f>(pointData->GetNormals(), 3, "Normals");
+  mesh.uvs = ReadTuples<Vec2f>(pointData->GetTCoords(), 2, "TCoords");
+
+  // Faces.
+  vtkCellArray* polys = input->GetPolys();
+  if (input->GetNumberOfCells() != polys->GetNumberOfCells())
+  {
+    throw Error("The data holds vertices, lines or strips beside its polygons; run vtkTriangleFilter "
+                "and keep its polygons only.");
+  }
+  mesh.triangles.reserve(static_cast<size_t>(polys->GetNumberOfCells()));
+  auto cell = vtk::TakeSmartPointer(polys->NewIterator());
+  for (cell->GoToFirstCell(); !cell->IsDoneWithTraversal(); cell->GoToNextCell())
+  {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    cell->GetCurrentCell(count, ids);
+    if (count != 3)
+    {
+      throw Error("Cell " + std::to_string(cell->GetCurrentCellId()) + " has " +
+        std::to_string(count) + " points; run vtkTriangleFilter first.");
+    }
+    mesh.triangles.push_back({ static_cast<int32_t>(ids[0]), static_cast<int32_t>(ids[1]),
+      static_cast<int32_t>(ids[2]) });
+  }
+  vtkCellData* cellData = input->GetCellData();
+  using Names = vtkRadiosityArrays;
+  mesh.reflectance = ReadTuples<Spectrum>(
+    cellData->GetArray(Names::Reflectance()), 3, Names::Reflectance());
+  mesh.emittance = ReadTuples<Spectrum>(
+    cellData->GetArray(Names::Emittance()), 3, Names::Emittance());
+  mesh.faceFlags = ReadScalars<uint8_t>(cellData->GetArray(Names::FaceFlags()));
+  mesh.materialId = ReadScalars<int32_t>(cellData->GetArray(Names::MaterialId()));
+  mesh.partId = ReadScalars<int32_t>(cellData->GetArray(Names::PartId()));
+  mesh.surfaceId = ReadScalars<int32_t>(cellData->GetArray(Names::SurfaceId()));
+  mesh.sourceCellId = ReadScalars<int64_t>(cellData->GetArray(Names::SourceCellId()));
+  for (Spectrum& reflectance : mesh.reflectance)
+  {
+    for (int band = 0; band < 3; ++band)
+    {
+      reflectance[band] = std::min(kMaximumReflectance, std::max(0.f, reflectance[band]));
+    }
+  }
+  mesh.Complete();
+  return mesh;
+}
+
+void PolyDataFromTriangleMesh(const TriangleMesh& mesh, vtkPolyData* output)
+{
+  output->Initialize();
+
+  // Points.
+  vtkNew<vtkPoints> points;
+  points->SetData(FloatArray("Points", 3, mesh.positions));
+  output->SetPoints(points);
+  if (!mesh.normals.empty())
+  {
+    output->GetPointData()->SetNormals(FloatArray("Normals", 3, mesh.normals));
+  }
+  if (!mesh.uvs.empty())
+  {
+    output->GetPointData()->SetTCoords(FloatArray("TCoords", 2, mesh.uvs));
+  }
+
+  // Faces.
+  vtkNew<vtkIdTypeArray> offsets, connectivity;
+  const vtkIdType faces = mesh.FaceCount();
+  offsets->SetNumberOfValues(faces + 1);
+  connectivity->SetNumberOfValues(3 * faces);
+  for (vtkIdType face = 0; face <= faces; ++face)
+  {
+    offsets->SetValue(face, 3 * face);
+  }
+  for (vtkIdType face = 0; face < faces; ++face)
+  {
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      connectivity->SetValue(
+        3 * face + corner, mesh.triangles[static_cast<size_t>(face)][static_cast<size_t>(corner)]);
+    }
+  }
+  vtkNew<vtkCellArray> polys;
+  polys->SetData(offsets, connectivity);
+  output->SetPolys(polys);
+
+  // What light needs to know of each face.
+  vtkCellData* cellData = output->GetCellData();
+  using Names = vtkRadiosityArrays;
+  cellData->AddArray(FloatArray(Names::Reflectance(), 3, mesh.reflectance));
+  cellData->AddArray(FloatArray(Names::Emittance(), 3, mesh.emittance));
+  WriteScalars<vtkUnsignedCharArray>(cellData, Names::FaceFlags(), mesh.faceFlags);
+  WriteScalars<vtkIntArray>(cellData, Names::MaterialId(), mesh.materialId);
+  WriteScalars<vtkIntArray>(cellData, Names::PartId(), mesh.partId);
+  WriteScalars<vtkIntArray>(cellData, Names::SurfaceId(), mesh.surfaceId);
+  WriteScalars<vtkIdTypeArray>(cellData, Names::SourceCellId(), mesh.sourceCellId);
+}
+}

@@ -1,0 +1,33 @@
+// Light sources without geometry: rows of the light table.
+#pragma once
+
+#include <string>
+
+#include "Common/Core/Spectrum.h"
+#include "Common/Core/Vector.h"
+
+namespace lambert {
+
+enum class LightType { Point = 0, Spot = 1, Directional = 2, Sky = 3 };
+
+struct Light {
+  LightType type = LightType::Point;
+  std::string name;
+  Vec3f position;             ///< world space, m (point, spot)
+  Vec3f direction{0, 0, -1};  ///< unit, the way the light travels (spot, directional)
+  /// Point and spot: intensity W/sr. Directional: irradiance W/m2 on a facet that faces it. Sky: radiance W/(m2 sr).
+  Spectrum intensity;
+  float innerConeAngle = 0;                 ///< spot: half-angle of full intensity, radians
+  float outerConeAngle = float(kPi) / 4;    ///< spot: half-angle where it ends, radians
+
+  /// Fall-off of a spot in the unit direction `d` away from it, in [0,1] (glTF KHR_lights_punctual); 1 for others.
+  float ConeFactor(const Vec3f& d) const {
+    if (type != LightType::Spot) return 1;
+    const float outer = std::cos(outerConeAngle);
+    const float scale = 1 / std::max(0.001f, std::cos(innerConeAngle) - outer);
+    const float t = std::min(1.f, std::max(0.f, (Dot(d, direction) - outer) * scale));
+    return t * t;
+  }
+};
+
+}  // namespace lambert

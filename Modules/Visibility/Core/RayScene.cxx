@@ -1,0 +1,111 @@
+#include "Visibility/Core/RayScene.h"
+
+#include <embree3/rtcore.h>
+
+#include <cstring>
+#include <limits>
+
+#include "Common/Core/Error.h"
+
+namespace lambert {
+
+struct RayScene::Implementation {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  float diagonal = 0;
+  float epsilon = 0;
+
+  ~Implementation() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+};
+
+namespace {
+
+RTCRay MakeRay(const Vec3f& from, const Vec3f& direction, float tnear, float tfar) {
+  RTCRay ray;
+  ray.org_x = from.x, ray.org_y = from.y, ray.org_z = from.z;
+  ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
+  ray.tnear = tnear, ray.tfar = tfar;
+  ray.time = 0, ray.mask = ~0u, ray.id = 0, ray.flags = 0;
+  return ray;
+}
+
+}  // namespace
+
+RayScene::RayScene(const TriangleMesh& mesh) : implementation_(new Implementation) {
+  Implementation& self = *implementation_;
+  self.diagonal = mesh.Bounds().IsEmpty() ? 0 : mesh.Bounds().Diagonal();
+  self.epsilon = 1e-5f * self.diagonal;
+  self.device = rtcNewDevice(nullptr);
+  if (!self.device) throw Error("The ray tracer (Embree) could not be started on this processor.");
+  self.scene = rtcNewScene(self.device);
+  rtcSetSceneFlags(self.scene, RTC_SCENE_FLAG_ROBUST);
+
+  // One geometry with all faces.
+  RTCGeometry geometry = rtcNewGeometry(self.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  if (mesh.FaceCount() > 0) {
+    void* points = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                           sizeof(Vec3f), mesh.positions.size());
+    void* faces = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                          3 * sizeof(int32_t), mesh.triangles.size());
+    std::memcpy(points, mesh.positions.data(), mesh.positions.size() * sizeof(Vec3f));
+    std::memcpy(faces, mesh.triangles.data(), mesh.triangles.size() * 3 * sizeof(int32_t));
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(self.scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(self.scene);
+}
+
+RayScene::~RayScene() = default;
+RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
+
+float RayScene::Epsilon() const { return implementation_->epsilon; }
+float RayScene::Diagonal() const { return implementation_->diagonal; }
+
+bool RayScene::Occluded(const Vec3f& from, const Vec3f& to) const {
+  const Vec3f offset = to - from;
+  const float distance = Length(offset);
+  if (!(distance > 2 * implementation_->epsilon)) return false;
+  RTCRay ray = MakeRay(from, offset / distance, implementation_->epsilon,
+                       distance - implementation_->epsilon);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(implementation_->scene, &context, &ray);
+  return ray.tfar < 0;
+}
+
+void RayScene::Occluded(const Segment* segments, int count, uint8_t* occluded) const {
+  for (int i = 0; i < count; ++i) occluded[i] = Occluded(segments[i].from, segments[i].to) ? 1 : 0;
+}
+
+bool RayScene::OccludedDirection(const Vec3f& from, const Vec3f& direction) const {
+  RTCRay ray = MakeRay(from, Normalize(direction), implementation_->epsilon,
+                       std::numeric_limits<float>::infinity());
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(implementation_->scene, &context, &ray);
+  return ray.tfar < 0;
+}
+
+RayHit RayScene::Closest(const Vec3f& from, const Vec3f& unitDirection) const {
+  RTCRayHit query;
+  query.ray = MakeRay(from, unitDirection, implementation_->epsilon,
+                      std::numeric_limits<float>::infinity());
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.primID = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(implementation_->scene, &context, &query);
+  RayHit hit;
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
+  hit.face = int32_t(query.hit.primID);
+  hit.distance = query.ray.tfar;
+  hit.barycentric = {query.hit.u, query.hit.v};
+  return hit;
+}
+
+}  // namespace lambert

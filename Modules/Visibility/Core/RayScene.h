@@ -1,0 +1,49 @@
+// Rays against the scene: the only place that knows Embree.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "Common/Core/TriangleMesh.h"
+
+namespace lambert {
+
+/// One visibility question: is there anything strictly between two points?
+struct Segment {
+  Vec3f from, to;
+};
+
+struct RayHit {
+  int32_t face = -1;   ///< -1: nothing
+  float distance = 0;  ///< along the unit direction, m
+  Vec2f barycentric;   ///< weights of corners 1 and 2
+};
+
+/// A bounding volume hierarchy over all faces of a mesh; both sides of a face block.
+class RayScene {
+ public:
+  explicit RayScene(const TriangleMesh& mesh);
+  ~RayScene();
+  RayScene(RayScene&&) noexcept;
+  RayScene& operator=(RayScene&&) noexcept;
+
+  /// Length that rays skip at both ends: 1e-5 of the scene diagonal.
+  float Epsilon() const;
+  float Diagonal() const;
+
+  /// occluded[i] = 1 where segment i is blocked. Hits nearer than Epsilon() to either end do not block. Safe to call
+  /// from several threads.
+  void Occluded(const Segment* segments, int count, uint8_t* occluded) const;
+  bool Occluded(const Vec3f& from, const Vec3f& to) const;
+  /// True where a ray to infinity is blocked.
+  bool OccludedDirection(const Vec3f& from, const Vec3f& direction) const;
+  /// The closest hit beyond Epsilon().
+  RayHit Closest(const Vec3f& from, const Vec3f& unitDirection) const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace lambert
