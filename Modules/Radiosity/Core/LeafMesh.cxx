@@ -1,0 +1,1 @@
+#include "Radiosity/Core/LeafMesh.h"
