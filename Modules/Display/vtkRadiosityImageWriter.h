@@ -1,0 +1,83 @@
+/**
+ * @class vtkRadiosityImageWriter
+ * @brief Writes a PNG picture of a solved scene, off-screen.
+ *
+ * Input: a vtkPolyData with `Radiosity` at its points, as a radiosity method or vtkRadiosityToneMapping leaves it; an
+ * array `Colors` that is there already is shown as it stands. Light is drawn as vertex colours without any shading of
+ * VTK's own; faces seen from behind are left out, since a lit back side has faces of its own. Four samples a pixel.
+ *
+ * Needs an X display; where none answers, an error says so and nothing is written (run under xvfb-run).
+ */
+#ifndef vtkRadiosityImageWriter_h
+#define vtkRadiosityImageWriter_h
+
+#include "lambertDisplayModule.h"
+#include "vtkWriter.h"
+
+class vtkPolyData;
+class vtkRenderer;
+
+class LAMBERTDISPLAY_EXPORT vtkRadiosityImageWriter : public vtkWriter
+{
+public:
+  static vtkRadiosityImageWriter* New();
+  vtkTypeMacro(vtkRadiosityImageWriter, vtkWriter);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{ Name of the PNG file.
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+  ///@{ Width and height in pixels, 1 to 8192; default 960 x 720.
+  vtkSetVector2Macro(Size, int);
+  vtkGetVector2Macro(Size, int);
+  ///@}
+
+  ///@{ Where the eye stands, world space, m. Setting any of the four turns AutomaticCamera off.
+  void SetCamera(double x, double y, double z, double focalX, double focalY, double focalZ);
+  void SetViewUp(double x, double y, double z);
+  vtkGetVector3Macro(Position, double);
+  vtkGetVector3Macro(FocalPoint, double);
+  vtkGetVector3Macro(ViewUp, double);
+  ///@}
+  ///@{ Vertical field of view in degrees, (0, 180); default 40.
+  vtkSetClampMacro(ViewAngle, double, 1e-3, 179);
+  vtkGetMacro(ViewAngle, double);
+  ///@}
+  ///@{ A view chosen from the scene (see Documentation/Stages/ToneMapping.md); default on.
+  vtkSetMacro(AutomaticCamera, bool);
+  vtkGetMacro(AutomaticCamera, bool);
+  vtkBooleanMacro(AutomaticCamera, bool);
+  ///@}
+
+  ///@{ Tone mapping, as in vtkRadiosityToneMapping: stops (EV), default 0.
+  vtkSetMacro(Exposure, double);
+  vtkGetMacro(Exposure, double);
+  ///@}
+
+  /// True where an X display answers, so that VTK can draw.
+  static bool IsDisplayAvailable();
+
+protected:
+  vtkRadiosityImageWriter();
+  ~vtkRadiosityImageWriter() override;
+  int FillInputPortInformation(int port, vtkInformation* information) override;
+  void WriteData() override;
+
+private:
+  vtkRadiosityImageWriter(const vtkRadiosityImageWriter&) = delete;
+  void operator=(const vtkRadiosityImageWriter&) = delete;
+  void PlaceCamera(vtkRenderer* renderer, vtkPolyData* colored);
+  void Draw(vtkPolyData* colored);
+
+  char* FileName = nullptr;
+  int Size[2] = { 960, 720 };
+  double Position[3] = { 0, 0, 1 };
+  double FocalPoint[3] = { 0, 0, 0 };
+  double ViewUp[3] = { 0, 1, 0 };
+  double ViewAngle = 40;
+  bool AutomaticCamera = true;
+  double Exposure = 0;
+};
+
+#endif
