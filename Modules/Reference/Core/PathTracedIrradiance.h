@@ -1,5 +1,5 @@
-// Irradiance by path tracing: the truth that every method is charted against. It reads the contract's mesh alone: its
-// own rays, its own offsets, nothing of trees, sides or visibility code.
+// Irradiance by path tracing: the truth that every method is charted against. It reads the
+// contract's mesh alone: its own rays, its own offsets, nothing of trees, sides or visibility code.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,18 @@
 namespace lambert {
 
 struct PathTracedIrradianceOptions {
-  int samples = 256;      ///< paths a point, [1, inf)
-  int maximumDepth = 64;  ///< bounces; Russian roulette ends paths before, without bias
+  /// Paths a point, [2, inf); rounded up to a multiple of the 16 replicates that the standard error
+  /// comes from (of as many replicates as samples where there are fewer than 16).
+  int samples = 256;
+  /// Bounces, [0, inf). Russian roulette ends paths before, without bias; this bound is against
+  /// endless ones only: at the largest reflectance 0.98 the light lost behind 1024 bounces is 1e-9
+  /// of the whole. 0 is direct light alone.
+  int maximumDepth = 1024;
   uint64_t seed = 1;
 };
 
-/// A point that light is asked for: position, the normal that irradiance is for, and the geometric normal whose
-/// hemisphere can see light (they are the same for a free probe).
+/// A point that light is asked for: position, the normal that irradiance is for, and the geometric
+/// normal whose hemisphere can see light (they are the same for a free probe).
 struct ReceiverPoint {
   Vec3f position;
   Vec3f normal;
@@ -33,12 +38,13 @@ struct IrradianceEstimate {
 /// Path tracer over a scene. Both sides of a face reflect and block.
 class PathTracedIrradiance {
  public:
-  /// Keeps a reference to `scene`.
+  /// Keeps a reference to `scene`. Throws Error where Embree cannot be started.
   explicit PathTracedIrradiance(const Scene& scene);
   ~PathTracedIrradiance();
 
-  /// Estimates at every point; estimate i depends on the options, the scene and i alone, for any number of threads.
-  /// Throws Cancelled.
+  /// Estimates at every point; estimate i depends on the options, the scene and i alone, for any
+  /// number of threads. A point without a normal receives nothing. Throws Error for fewer than 2
+  /// samples, Cancelled.
   std::vector<IrradianceEstimate> Estimate(const std::vector<ReceiverPoint>& points,
                                            const PathTracedIrradianceOptions& options = {},
                                            const ProgressCallback& progress = {}) const;

@@ -1,4 +1,5 @@
-// How far a solution is from the truth, as the contract defines it: relative RMS error of delivered irradiance.
+// How far a solution is from the truth, as the contract defines it: relative RMS error of delivered
+// irradiance.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,8 @@
 namespace lambert {
 
 struct SolutionErrorOptions {
-  int points = 2000;   ///< receiver points, stratified by area over every side of every face that does not emit
+  int points = 2000;   ///< receiver points, stratified by area over every side of every face that
+                       ///< does not emit
   int samples = 1024;  ///< paths a point
   uint64_t seed = 1;
 };
@@ -24,8 +26,9 @@ struct SolutionError {
   int64_t points = 0;                       ///< receiving points that counted
 };
 
-/// Compares the irradiance that `solution` delivers (interpolated from its vertices) with a path trace of `scene`.
-/// A side that the solution does not model counts with 0 where the reference finds light there.
+/// Compares the irradiance that `solution` delivers (interpolated from its vertices) with a path
+/// trace of `scene`. A side that the solution does not model counts with 0 where the reference
+/// finds light there.
 SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& solution,
                                    const SolutionErrorOptions& options = {},
                                    const ProgressCallback& progress = {});

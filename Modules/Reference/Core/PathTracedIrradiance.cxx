@@ -1,0 +1,369 @@
+#include "Reference/Core/PathTracedIrradiance.h"
+
+#include <embree3/rtcore.h>
+#include <pmmintrin.h>
+#include <xmmintrin.h>
+
+#include <array>
+#include <cstring>
+#include <limits>
+
+#include "Common/Core/Error.h"
+#include "Common/Core/Parallel.h"
+#include "Common/Core/Random.h"
+#include "Reference/Core/EmitterTree.h"
+
+namespace lambert {
+
+namespace {
+
+/// A place that light arrives at: a receiver, or a bounce on one side of a face.
+struct Vertex {
+  Vec3f position;
+  Vec3f normal;     ///< the irradiance is for this one
+  Vec3f geometric;  ///< only directions of its hemisphere see light
+};
+
+/// Denormal numbers count as zero while this lives; rays are several times slower over them.
+class FlushDenormals {
+ public:
+  FlushDenormals() : state_(_mm_getcsr()) {
+    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+  }
+  ~FlushDenormals() { _mm_setcsr(state_); }
+
+ private:
+  unsigned state_;
+};
+
+/// Additive recurrences after the generalized golden ratio (Roberts 2018) of 2 and 3 dimensions.
+constexpr double kPlane[2] = {0.7548776662466927, 0.5698402909980532};
+constexpr double kSpace[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+
+double Fraction(double x) { return x - std::floor(x); }
+
+/// Power heuristic of multiple importance sampling (Veach 1997, equation 9.13 with exponent 2).
+float PowerHeuristic(float density, float other) {
+  const float ratio = other / density;
+  return 1 / (1 + ratio * ratio);
+}
+
+/// Mean and standard error over independent replicates.
+class ReplicateMean {
+ public:
+  void Add(const std::array<double, 3>& value) {
+    ++count_;
+    for (size_t band = 0; band < 3; ++band) {
+      const double delta = value[band] - mean_[band];
+      mean_[band] += delta / count_;
+      squares_[band] += delta * (value[band] - mean_[band]);
+    }
+  }
+  IrradianceEstimate Estimate() const {
+    IrradianceEstimate estimate;
+    for (int band = 0; band < 3; ++band) {
+      estimate.irradiance[band] = float(mean_[size_t(band)]);
+      estimate.standardError[band] =
+          float(std::sqrt(squares_[size_t(band)] / (double(count_) * (count_ - 1))));
+    }
+    return estimate;
+  }
+
+ private:
+  int count_ = 0;
+  std::array<double, 3> mean_{}, squares_{};
+};
+
+}  // namespace
+
+struct PathTracedIrradiance::Implementation {
+  explicit Implementation(const Scene& scene);
+  ~Implementation();
+
+  IrradianceEstimate EstimateAt(const ReceiverPoint& point, uint64_t index,
+                                const PathTracedIrradianceOptions& options) const;
+  Spectrum Path(const Vertex& receiver, const double u[2], int maximumDepth, Random* random) const;
+  Spectrum FromEmitters(const Vertex& at, const double u[3]) const;
+  Spectrum FromLight(const Vertex& at, const Light& light) const;
+  Spectrum Unshadowed(const Vertex& at, const Light& light, Vec3f* direction,
+                      float* distance) const;
+  Spectrum FromAllLights(const Vertex& at) const;
+  Spectrum FromOneLight(const Vertex& at, Random* random) const;
+
+  Vec3f Origin(const Vertex& at) const;
+  bool Blocked(const Vertex& at, const Vec3f& direction, float distance) const;
+  bool Closest(const Vertex& at, const Vec3f& direction, RTCRayHit* query) const;
+
+  const Scene& scene;
+  EmitterTree emitters;
+  Spectrum sky;  ///< radiance of all sky lights, W/(m2 sr)
+  std::vector<Light> punctual;
+  RTCDevice device = nullptr;
+  RTCScene rays = nullptr;
+  float nearest = 0;  ///< a hit nearer than this does not block, m
+  float lift = 0;     ///< rays start this far above their face, against rounding alone, m
+};
+
+PathTracedIrradiance::Implementation::Implementation(const Scene& scene_)
+    : scene(scene_), emitters(scene_.mesh) {
+  for (const Light& light : scene.lights) {
+    if (light.type == LightType::Sky) {
+      sky += light.intensity;
+    } else if (!light.intensity.IsBlack()) {
+      punctual.push_back(light);
+    }
+  }
+  const TriangleMesh& mesh = scene.mesh;
+  const Box3f bounds = mesh.Bounds();
+  if (!bounds.IsEmpty()) {
+    const Vec3f far = Max(Max(bounds.high, -bounds.high), Max(bounds.low, -bounds.low));
+    nearest = 1e-5f * bounds.Diagonal();
+    lift = 4 * std::numeric_limits<float>::epsilon() * std::max(far.x, std::max(far.y, far.z));
+  }
+
+  device = rtcNewDevice(nullptr);
+  if (!device) throw Error("The ray tracer (Embree) could not be started on this processor.");
+  rays = rtcNewScene(device);
+  rtcSetSceneFlags(rays, RTC_SCENE_FLAG_ROBUST);
+  if (mesh.FaceCount() > 0) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    void* points = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                           sizeof(Vec3f), mesh.positions.size());
+    void* faces = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                          3 * sizeof(int32_t), mesh.triangles.size());
+    std::memcpy(points, mesh.positions.data(), mesh.positions.size() * sizeof(Vec3f));
+    std::memcpy(faces, mesh.triangles.data(), mesh.triangles.size() * 3 * sizeof(int32_t));
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(rays, geometry);
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(rays);
+}
+
+PathTracedIrradiance::Implementation::~Implementation() {
+  if (rays) rtcReleaseScene(rays);
+  if (device) rtcReleaseDevice(device);
+}
+
+// Rays.
+
+Vec3f PathTracedIrradiance::Implementation::Origin(const Vertex& at) const {
+  return at.position + at.geometric * lift;
+}
+
+namespace {
+RTCRay MakeRay(const Vec3f& from, const Vec3f& direction, float tnear, float tfar) {
+  RTCRay ray{};
+  ray.org_x = from.x, ray.org_y = from.y, ray.org_z = from.z;
+  ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
+  ray.tnear = tnear, ray.tfar = tfar;
+  ray.mask = ~0u;
+  return ray;
+}
+}  // namespace
+
+bool PathTracedIrradiance::Implementation::Blocked(const Vertex& at, const Vec3f& direction,
+                                                   float distance) const {
+  const float end = distance - nearest;
+  if (!(end > nearest)) return false;
+  RTCRay ray = MakeRay(Origin(at), direction, nearest, end);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(rays, &context, &ray);
+  return ray.tfar < 0;
+}
+
+bool PathTracedIrradiance::Implementation::Closest(const Vertex& at, const Vec3f& direction,
+                                                   RTCRayHit* query) const {
+  query->ray = MakeRay(Origin(at), direction, nearest, std::numeric_limits<float>::infinity());
+  query->hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(rays, &context, query);
+  return query->hit.geomID != RTC_INVALID_GEOMETRY_ID;
+}
+
+// Light straight from its sources.
+
+/// One sample of the irradiance from emitting faces, weighted against the cosine rays that may hit
+/// them too.
+Spectrum PathTracedIrradiance::Implementation::FromEmitters(const Vertex& at,
+                                                            const double u[3]) const {
+  if (emitters.IsEmpty()) return {};
+  const EmitterTree::Sample sample = emitters.Pick(at.position, at.normal, u);
+  if (sample.face < 0 || !(sample.density > 0) || sample.distance < nearest) return {};
+  const float cosine = Dot(at.normal, sample.direction);
+  if (cosine <= 0 || Dot(at.geometric, sample.direction) <= 0) return {};
+  const Vec3f toward = scene.mesh.VectorArea(sample.face);
+  const Side side = Dot(toward, sample.direction) < 0 ? kFront : kBack;
+  if (!scene.mesh.Emits(sample.face, side)) return {};
+  if (Blocked(at, sample.direction, sample.distance)) return {};
+  const float weight = PowerHeuristic(sample.density, cosine / float(kPi));
+  const Spectrum radiance = scene.mesh.emittance[size_t(sample.face)] / float(kPi);
+  return radiance * (cosine * weight / sample.density);
+}
+
+Spectrum PathTracedIrradiance::Implementation::Unshadowed(const Vertex& at, const Light& light,
+                                                          Vec3f* direction, float* distance) const {
+  float attenuation = 1;
+  *distance = std::numeric_limits<float>::infinity();
+  *direction = Normalize(-light.direction);
+  if (light.type != LightType::Directional) {
+    const Vec3f offset = light.position - at.position;
+    *distance = Length(offset);
+    if (!(*distance > 0)) return {};
+    *direction = offset / *distance;
+    attenuation = light.ConeFactor(-*direction) / (*distance * *distance);
+  }
+  const float cosine = Dot(at.normal, *direction);
+  if (cosine <= 0 || Dot(at.geometric, *direction) <= 0) return {};
+  return light.intensity * (cosine * attenuation);
+}
+
+Spectrum PathTracedIrradiance::Implementation::FromLight(const Vertex& at,
+                                                         const Light& light) const {
+  Vec3f direction;
+  float distance = 0;
+  const Spectrum irradiance = Unshadowed(at, light, &direction, &distance);
+  if (irradiance.IsBlack() || Blocked(at, direction, distance)) return {};
+  return irradiance;
+}
+
+Spectrum PathTracedIrradiance::Implementation::FromAllLights(const Vertex& at) const {
+  Spectrum sum;
+  for (const Light& light : punctual) sum += FromLight(at, light);
+  return sum;
+}
+
+/// One light, chosen by what it would give if nothing stood between.
+Spectrum PathTracedIrradiance::Implementation::FromOneLight(const Vertex& at,
+                                                            Random* random) const {
+  Vec3f direction;
+  float distance = 0;
+  double total = 0;
+  for (const Light& light : punctual) total += Unshadowed(at, light, &direction, &distance).Mean();
+  if (!(total > 0)) return {};
+  double rest = random->UniformDouble() * total;
+  for (const Light& light : punctual) {
+    const double share = Unshadowed(at, light, &direction, &distance).Mean();
+    rest -= share;
+    if (rest < 0) return FromLight(at, light) * float(total / share);
+  }
+  return {};
+}
+
+// Paths.
+
+/// Light that reaches the receiver over one path, except straight from emitters by choice and from
+/// punctual lights; its first direction comes from u, the others from `random`.
+Spectrum PathTracedIrradiance::Implementation::Path(const Vertex& receiver, const double u[2],
+                                                    int maximumDepth, Random* random) const {
+  const TriangleMesh& mesh = scene.mesh;
+  Spectrum sum, throughput(1.f);
+  Vertex at = receiver;
+  float u0 = float(u[0]), u1 = float(u[1]);
+  for (int depth = 0;; ++depth) {
+    // A cosine-weighted ray about the normal, within the geometric hemisphere.
+    Vec3f s, t;
+    CoordinateSystem(at.normal, &s, &t);
+    const Vec3f local = CosineHemisphere(u0, u1);
+    const Vec3f direction = s * local.x + t * local.y + at.normal * local.z;
+    if (Dot(direction, at.geometric) <= 0) return sum;
+
+    // It escapes to the sky, or meets a side of a face.
+    RTCRayHit query;
+    if (!Closest(at, direction, &query)) return sum + throughput * sky * float(kPi);
+    const int32_t face = int32_t(query.hit.primID);
+    const Vec3f front = mesh.FrontNormal(face);
+    const Side side = Dot(front, direction) < 0 ? kFront : kBack;
+
+    // What that side emits, weighted against the choice of emitters.
+    if (mesh.Emits(face, side)) {
+      const float density =
+          emitters.Density(at.position, at.normal, face, direction, query.ray.tfar);
+      const float weight = PowerHeuristic(local.z / float(kPi), density);
+      sum += throughput * mesh.emittance[size_t(face)] * weight;
+    }
+    if (depth == maximumDepth) return sum;
+
+    // Diffuse reflection; roulette keeps the throughput near one half.
+    throughput = throughput * mesh.reflectance[size_t(face)];
+    const float survival = std::min(1.f, 2 * throughput.MaxBand());
+    if (!(survival > 0) || random->Uniform() >= survival) return sum;
+    throughput *= 1 / survival;
+
+    // The next receiver is the place that was hit.
+    const float b1 = query.hit.u, b2 = query.hit.v;
+    at.position = mesh.Corner(face, 0) * (1 - b1 - b2) + mesh.Corner(face, 1) * b1 +
+                  mesh.Corner(face, 2) * b2;
+    at.normal = at.geometric = side == kFront ? front : -front;
+    const double choice[3] = {random->UniformDouble(), random->UniformDouble(),
+                              random->UniformDouble()};
+    sum += throughput * (FromEmitters(at, choice) + FromOneLight(at, random));
+    u0 = random->Uniform(), u1 = random->Uniform();
+  }
+}
+
+IrradianceEstimate PathTracedIrradiance::Implementation::EstimateAt(
+    const ReceiverPoint& point, uint64_t index, const PathTracedIrradianceOptions& options) const {
+  // A point without a normal of its own takes the geometric one.
+  Vertex receiver{point.position, Normalize(point.normal), Normalize(point.geometricNormal)};
+  if (LengthSquared(receiver.geometric) == 0) receiver.geometric = receiver.normal;
+  if (LengthSquared(receiver.normal) == 0) receiver.normal = receiver.geometric;
+  if (!(LengthSquared(receiver.normal) > 0) || !IsFinite(receiver.position)) return {};
+
+  // Replicates of one point set under independent random shifts: their spread is an honest error.
+  const int replicates = std::min(16, options.samples);
+  const int samples = (options.samples + replicates - 1) / replicates;
+  ReplicateMean mean;
+  for (int replicate = 0; replicate < replicates; ++replicate) {
+    Random random(HashBits(options.seed, HashBits(index, uint64_t(replicate))));
+    double shift[5];
+    for (double& s : shift) s = random.UniformDouble();
+    std::array<double, 3> sum{};
+    for (int i = 0; i < samples; ++i) {
+      const double first[2] = {Fraction(shift[0] + i * kPlane[0]),
+                               Fraction(shift[1] + i * kPlane[1])};
+      const double choice[3] = {Fraction(shift[2] + i * kSpace[0]),
+                                Fraction(shift[3] + i * kSpace[1]),
+                                Fraction(shift[4] + i * kSpace[2])};
+      const Spectrum light =
+          FromEmitters(receiver, choice) + Path(receiver, first, options.maximumDepth, &random);
+      for (size_t band = 0; band < 3; ++band) sum[band] += double(light[int(band)]) / samples;
+    }
+    mean.Add(sum);
+  }
+  IrradianceEstimate estimate = mean.Estimate();
+  estimate.irradiance += FromAllLights(receiver);
+  return estimate;
+}
+
+PathTracedIrradiance::PathTracedIrradiance(const Scene& scene)
+    : implementation_(new Implementation(scene)) {}
+PathTracedIrradiance::~PathTracedIrradiance() = default;
+
+std::vector<IrradianceEstimate> PathTracedIrradiance::Estimate(
+    const std::vector<ReceiverPoint>& points, const PathTracedIrradianceOptions& options,
+    const ProgressCallback& progress) const {
+  if (options.samples < 2) {
+    throw Error("A path trace needs at least 2 samples a point; " +
+                std::to_string(options.samples) + " were asked for.");
+  }
+  std::vector<IrradianceEstimate> estimates(points.size());
+  const int64_t count = int64_t(points.size());
+  const int64_t block = std::max<int64_t>(64, (int64_t(1) << 18) / options.samples);
+  for (int64_t begin = 0; begin < count; begin += block) {
+    if (!Report(progress, double(begin) / double(count), "Tracing paths")) throw Cancelled();
+    ParallelFor(std::min(block, count - begin), 1, [&](int64_t from, int64_t to) {
+      FlushDenormals flush;
+      for (int64_t i = begin + from; i < begin + to; ++i) {
+        estimates[size_t(i)] = implementation_->EstimateAt(points[size_t(i)], uint64_t(i), options);
+      }
+    });
+  }
+  if (!Report(progress, 1, "Tracing paths")) throw Cancelled();
+  return estimates;
+}
+
+}  // namespace lambert
