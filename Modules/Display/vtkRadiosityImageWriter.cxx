@@ -56,11 +56,9 @@ vtkRadiosityImageWriter::~vtkRadiosityImageWriter()
 
 bool vtkRadiosityImageWriter::IsDisplayAvailable()
 {
-  Display* display = XOpenDisplay(nullptr);
-  if (display)
-  {
-    XCloseDisplay(display);
-  }
+  // The connection stays open: an X server resets, and refuses for a moment, when its last client leaves.
+  static Display* display = nullptr;
+  display = display ? display : XOpenDisplay(nullptr);
   return display != nullptr;
 }
 
