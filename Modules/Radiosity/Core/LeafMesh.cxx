@@ -1,1 +1,241 @@
 #include "Radiosity/Core/LeafMesh.h"
+
+#include <algorithm>
+#include <string>
+
+#include "Common/Core/Error.h"
+#include "Radiosity/Core/LeafMeshImplementation.h"
+
+namespace lambert {
+
+namespace {
+
+using OpenMesh::EdgeHandle;
+using OpenMesh::FaceHandle;
+using OpenMesh::HalfedgeHandle;
+using OpenMesh::VertexHandle;
+
+// Parameters of an edge nearer than this are one point: some thousand roundings of a double.
+constexpr double kSameParameter = 1e-12;
+
+}  // namespace
+
+int32_t LeafMesh::Implementation::FacePatch(int32_t face, Side side) {
+  int32_t& patch = facePatch[size_t(face) * 2 + side];
+  if (patch < 0) {
+    patch = int32_t(patches.size());
+    Patch& whole = patches.emplace_back();
+    whole.face = face;
+    whole.side = side;
+    whole.corners = {mesh.Corner(face, 0), mesh.Corner(face, 1), mesh.Corner(face, 2)};
+  }
+  return patch;
+}
+
+std::array<int32_t, 2> LeafMesh::Implementation::Split(int32_t id) {
+  Patch& patch = patches[size_t(id)];
+  if (patch.firstChild >= 0) throw Error("Patch " + std::to_string(id) + " is split already.");
+  if (patch.meshFace < 0) AddIsland(id);
+
+  // Choose the line and put its ends into the border, and with it into the neighbours' (4.4.2).
+  const Border before = BorderOf(patch);
+  const auto cut = CutPatch(before.polygon, options.snapTolerance);
+  const int32_t from = CutVertex(patch, before, cut[0]);
+  const int32_t to = CutVertex(patch, before, cut[1]);
+
+  // Draw the line as an edge of the half-edge mesh.
+  HalfedgeHandle intoFrom, outOfTo;
+  for (const int32_t h : BorderOf(patch).halfedges) {
+    const HalfedgeHandle halfedge(h);
+    if (halfedges.to_vertex_handle(halfedge).idx() == from) intoFrom = halfedge;
+    if (halfedges.from_vertex_handle(halfedge).idx() == to) outOfTo = halfedge;
+  }
+  if (from == to || halfedges.next_halfedge_handle(intoFrom) == outOfTo ||
+      halfedges.next_halfedge_handle(halfedges.prev_halfedge_handle(outOfTo)) == intoFrom) {
+    throw Error("A patch of face " + std::to_string(patch.face) +
+                " is too small to be split; stop at larger patches.");
+  }
+  const HalfedgeHandle line = halfedges.insert_edge(intoFrom, outOfTo);
+
+  // The two polygons are the two halves.
+  const int32_t first = int32_t(patches.size());
+  const int32_t meshFaces[2] = {patch.meshFace, halfedges.face_handle(line).idx()};
+  lineOfEdge.push_back(3 + first);
+  patchOfMeshFace.push_back(-1);
+  for (int32_t half = 0; half < 2; ++half) {
+    Patch& child = patches.emplace_back();
+    child.face = patch.face;
+    child.side = patch.side;
+    child.meshFace = meshFaces[half];
+    child.corners = CornersOf(BorderOf(child));
+    patchOfMeshFace[size_t(child.meshFace)] = first + half;
+  }
+  patch.firstChild = first;
+  patch.meshFace = -1;
+  patch.triangles = {};
+  return {first, first + 1};
+}
+
+// Makes the patch of a whole face a triangle of the half-edge mesh, with the points already on its
+// edges.
+void LeafMesh::Implementation::AddIsland(int32_t id) {
+  Patch& patch = patches[size_t(id)];
+  std::array<VertexHandle, 3> corners;
+  for (int corner = 0; corner < 3; ++corner) {
+    Vec3d weights;
+    weights[corner] = 1;
+    const int32_t point = mesh.triangles[size_t(patch.face)][size_t(corner)];
+    corners[size_t(corner)] = VertexHandle(AddMeshVertex(weights, point));
+  }
+  const int32_t firstEdge = int32_t(halfedges.n_edges());
+  patch.meshFace = halfedges.add_face(corners.data(), corners.size()).idx();
+  patchOfMeshFace.push_back(id);
+
+  for (uint8_t corner = 0; corner < 3; ++corner) {
+    lineOfEdge.push_back(corner);
+    const LeafMeshEdges::FaceEdge found = edges.FindOrAdd(patch.face, corner);
+    if (size_t(found.edge) >= edgeUses.size()) edgeUses.resize(size_t(found.edge) + 1);
+    edgeUses[size_t(found.edge)].push_back(
+        {patch.face, patch.side, corner, found.isForward, found.name, {firstEdge + corner}});
+  }
+  for (uint8_t corner = 0; corner < 3; ++corner) {
+    const int32_t edge = edges.Find(patch.face, corner).edge;
+    for (EdgeUse& use : edgeUses[size_t(edge)]) {
+      if (use.face != patch.face || use.side != patch.side || use.corner != corner) continue;
+      const int32_t points = int32_t(edges.Points(edge).size());
+      for (int32_t index = 0; index < points; ++index) SplitRim(edge, &use, index);
+    }
+  }
+}
+
+int32_t LeafMesh::Implementation::AddMeshVertex(const Vec3d& weights, int32_t number) {
+  meshVertices.push_back({weights, number});
+  return halfedges.new_vertex().idx();
+}
+
+// Puts a vertex into an edge of the half-edge mesh. The new edge is the part on the side of the
+// edge's first halfedge's origin; halfedges keep their directions.
+void LeafMesh::Implementation::SplitMeshEdge(int32_t edge, int32_t vertex) {
+  const EdgeHandle handle(edge);
+  for (unsigned i = 0; i < 2; ++i) {
+    const FaceHandle face = halfedges.face_handle(halfedges.halfedge_handle(handle, i));
+    if (face.is_valid()) patches[size_t(patchOfMeshFace[size_t(face.idx())])].triangles.clear();
+  }
+  halfedges.split_edge(handle, VertexHandle(vertex));
+  lineOfEdge.push_back(lineOfEdge[size_t(edge)]);
+}
+
+// Takes a point of an input edge up into one island's rim.
+void LeafMesh::Implementation::SplitRim(int32_t edge, EdgeUse* use, int32_t index) {
+  const double t = edges.Points(edge)[size_t(index)];
+  const int corner = use->corner, next = (corner + 1) % 3;
+  Vec3d weights;
+  weights[use->isForward ? corner : next] = 1 - t;
+  weights[use->isForward ? next : corner] = t;
+  const int32_t vertex = AddMeshVertex(weights, edges.VertexNumber(edge, use->name, index));
+  SplitMeshEdge(use->segments[size_t(index)], vertex);
+  use->segments.insert(use->segments.begin() + index + (use->isForward ? 0 : 1),
+                       int32_t(halfedges.n_edges()) - 1);
+}
+
+// The mesh vertex where a splitting line ends; made where there is none.
+int32_t LeafMesh::Implementation::CutVertex(const Patch& patch, const Border& border,
+                                            const PatchCutEnd& end) {
+  if (end.to < 0) return border.vertices[size_t(end.from)];
+  const int32_t count = int32_t(border.vertices.size());
+  const int32_t halfedge =
+      border.halfedges[size_t((end.from + 1) % count == end.to ? end.from : end.to)];
+  const Vec3d a = meshVertices[size_t(border.vertices[size_t(end.from)])].weights;
+  const Vec3d b = meshVertices[size_t(border.vertices[size_t(end.to)])].weights;
+  const Vec3d weights = a * (1 - end.fraction) + b * end.fraction;
+
+  const int32_t line = lineOfEdge[size_t(halfedge / 2)];
+  if (line < 3) return RimVertex(patch, line, weights[line], weights[(line + 1) % 3]);
+  const int32_t vertex = AddMeshVertex(weights, edges.AddInnerVertex(patch.face, weights));
+  SplitMeshEdge(halfedge / 2, vertex);
+  return vertex;
+}
+
+// Puts a point into the input edge that begins at corner `line`, and so into all islands along it.
+int32_t LeafMesh::Implementation::RimVertex(const Patch& patch, int32_t line, double fromWeight,
+                                            double toWeight) {
+  const LeafMeshEdges::FaceEdge found = edges.Find(patch.face, line);
+  const double t = (found.isForward ? toWeight : fromWeight) / (fromWeight + toWeight);
+  const std::vector<double>& points = edges.Points(found.edge);
+  int32_t index =
+      int32_t(std::lower_bound(points.begin(), points.end(), t - kSameParameter) - points.begin());
+  if (size_t(index) == points.size() || points[size_t(index)] > t + kSameParameter) {
+    edges.InsertPoint(found.edge, index, t);
+    for (EdgeUse& use : edgeUses[size_t(found.edge)]) SplitRim(found.edge, &use, index);
+  }
+  for (const EdgeUse& use : edgeUses[size_t(found.edge)]) {
+    if (use.face != patch.face || use.side != patch.side || use.corner != line) continue;
+    const EdgeHandle segment(use.segments[size_t(index)]);
+    const HalfedgeHandle halfedge = halfedges.halfedge_handle(segment, use.isForward ? 0 : 1);
+    return halfedges.to_vertex_handle(halfedge).idx();
+  }
+  throw Error("An edge of face " + std::to_string(patch.face) + " is not in the leaf mesh.");
+}
+
+LeafMesh::Implementation::Border LeafMesh::Implementation::BorderOf(const Patch& patch) const {
+  const auto flat =
+      FlattenTriangle(Vec3d(mesh.Corner(patch.face, 0)), Vec3d(mesh.Corner(patch.face, 1)),
+                      Vec3d(mesh.Corner(patch.face, 2)));
+  Border border;
+  const HalfedgeHandle start = halfedges.halfedge_handle(FaceHandle(patch.meshFace));
+  HalfedgeHandle halfedge = start;
+  int32_t lineBefore = lineOfEdge[size_t(halfedges.prev_halfedge_handle(start).idx() / 2)];
+  do {
+    const int32_t vertex = halfedges.from_vertex_handle(halfedge).idx();
+    const int32_t line = lineOfEdge[size_t(halfedge.idx() / 2)];
+    const Vec3d& w = meshVertices[size_t(vertex)].weights;
+    border.polygon.push_back({flat[0] * w.x + flat[1] * w.y + flat[2] * w.z, line != lineBefore});
+    border.vertices.push_back(vertex);
+    border.halfedges.push_back(halfedge.idx());
+    lineBefore = line;
+    halfedge = halfedges.next_halfedge_handle(halfedge);
+  } while (halfedge != start);
+  return border;
+}
+
+std::vector<Vec3f> LeafMesh::Implementation::CornersOf(const Border& border) const {
+  std::vector<Vec3f> corners;
+  for (size_t i = 0; i < border.vertices.size(); ++i) {
+    if (!border.polygon[i].isCorner) continue;
+    corners.push_back(edges.Position(meshVertices[size_t(border.vertices[i])].number));
+  }
+  corners.shrink_to_fit();
+  return corners;
+}
+
+LeafMesh::LeafMesh(const TriangleMesh& mesh, const LeafMeshOptions& options)
+    : implementation_(std::make_unique<Implementation>(mesh, options)) {
+  if (!(options.snapTolerance >= 0 && options.snapTolerance < 0.5f)) {
+    throw Error("The snap tolerance of patches must lie in [0, 0.5).");
+  }
+}
+
+LeafMesh::~LeafMesh() = default;
+
+int32_t LeafMesh::FacePatch(int32_t face, Side side) {
+  return implementation_->FacePatch(face, side);
+}
+std::array<int32_t, 2> LeafMesh::Split(int32_t patch) { return implementation_->Split(patch); }
+int32_t LeafMesh::PatchCount() const { return int32_t(implementation_->patches.size()); }
+int32_t LeafMesh::PatchFace(int32_t patch) const {
+  return implementation_->patches[size_t(patch)].face;
+}
+Side LeafMesh::PatchSide(int32_t patch) const {
+  return implementation_->patches[size_t(patch)].side;
+}
+const std::vector<Vec3f>& LeafMesh::Corners(int32_t patch) const {
+  return implementation_->patches[size_t(patch)].corners;
+}
+std::vector<LeafTriangle> LeafMesh::Triangulate(const std::vector<uint8_t>& litSides) {
+  return implementation_->Triangulate(litSides);
+}
+const std::vector<LeafVertex>& LeafMesh::Vertices() const {
+  return implementation_->edges.Vertices();
+}
+
+}  // namespace lambert

@@ -1,4 +1,5 @@
-// The leaves below the input triangles: patches split by lines (thesis 4.4), and the triangles drawn in the end.
+// The leaves below the input triangles: patches split by lines (thesis 4.4), and the triangles
+// drawn in the end.
 #pragma once
 
 #include <array>
@@ -11,7 +12,8 @@
 namespace lambert {
 
 struct LeafMeshOptions {
-  /// A splitting line moves to a vertex within this fraction of the rectangle's longer side. [0, 0.5)
+  /// A splitting line moves to a vertex within this fraction of the rectangle's longer side. [0,
+  /// 0.5)
   float snapTolerance = 0.15f;
 };
 
@@ -22,17 +24,18 @@ struct LeafVertex {
   Vec3f weights;                  ///< of those points; sum 1
 };
 
-/// A triangle of the output mesh. Vertex numbers below the mesh's point count are input points; others are
-/// LeafMesh::Vertex(number - point count).
+/// A triangle of the output mesh. Vertex numbers below the mesh's point count are input points;
+/// others are LeafMesh::Vertex(number - point count).
 struct LeafTriangle {
-  std::array<int32_t, 3> vertices;  ///< in the stored winding of the input face (also for the back side)
-  int32_t face = 0;                 ///< input triangle
+  std::array<int32_t, 3>
+      vertices;      ///< in the stored winding of the input face (also for the back side)
+  int32_t face = 0;  ///< input triangle
   uint8_t side = kFront;
   int32_t patch = -1;  ///< leaf patch it lies in; -1 where the face has none
 };
 
-/// Patches on a half-edge mesh that holds refined triangles and their neighbours only. Not safe to change from
-/// several threads.
+/// Patches on a half-edge mesh that holds refined triangles and their neighbours only. Not safe to
+/// change from several threads.
 class LeafMesh {
  public:
   LeafMesh(const TriangleMesh& mesh, const LeafMeshOptions& options = {});
@@ -40,19 +43,24 @@ class LeafMesh {
 
   /// The patch that is the whole of `face` seen from `side`; made at the first call.
   int32_t FacePatch(int32_t face, Side side);
-  /// Splits a leaf patch across the longer side of its minimum-area rectangle, at its middle, snapped to a vertex
-  /// where one is near (4.4.2); returns the two halves, which become leaves in its place.
+  /// Splits a leaf patch across the longer side of its minimum-area rectangle, at its middle,
+  /// snapped to a vertex where one is near (4.4.2); returns the two halves, which become leaves in
+  /// its place.
   std::array<int32_t, 2> Split(int32_t patch);
 
+  /// Patches so far, split ones included; they are numbered from 0 and keep their numbers.
+  int32_t PatchCount() const;
   int32_t PatchFace(int32_t patch) const;
   Side PatchSide(int32_t patch) const;
-  /// Corners of the patch: a convex polygon counter-clockwise about the face's front normal, without t-vertices.
+  /// Corners of the patch: a convex polygon counter-clockwise about the face's front normal,
+  /// without t-vertices.
   const std::vector<Vec3f>& Corners(int32_t patch) const;
 
-  /// Triangles of every lit side of every face (`litSides`, per face: bit 1 front, bit 2 back), refined or not, so that no vertex lies
-  /// inside another triangle's edge: t-vertices are taken up by constrained Delaunay triangulation (4.4.3), across
-  /// surfaces and at non-manifold edges too (matched through positions). Patches whose border has not changed keep
-  /// their triangulation of the last call.
+  /// Triangles of every lit side of every face (`litSides`, per face: bit 1 front, bit 2 back),
+  /// refined or not, so that no vertex lies inside another triangle's edge: t-vertices are taken up
+  /// by constrained Delaunay triangulation (4.4.3), across surfaces and at non-manifold edges too
+  /// (matched through positions). Patches whose border has not changed keep their triangulation of
+  /// the last call.
   std::vector<LeafTriangle> Triangulate(const std::vector<uint8_t>& litSides);
 
   const std::vector<LeafVertex>& Vertices() const;
