@@ -25,12 +25,34 @@ public:
   static const char* InputFaceId() { return "InputFaceId"; }   ///< vtkIdType, refined mesh only
   static const char* Side() { return "Side"; }                 ///< unsigned char, 0 front, 1 back
   static const char* ClusterId() { return "ClusterId"; }       ///< int
+  static const char* LeafId() { return "LeafId"; }             ///< vtkIdType, leaf element of the hierarchy, refined mesh only
   ///@}
 
   ///@{ Point arrays.
   static const char* Irradiance() { return "Irradiance"; }             ///< 3 float, W/m2
   static const char* Radiosity() { return "Radiosity"; }               ///< 3 float, W/m2
   static const char* IrradianceVector() { return "IrradianceVector"; } ///< 9 float, W/m2
+  ///@}
+
+  ///@{ Tables in the field data, a tuple a row: materials, parts, lights; and the camera.
+  static const char* MaterialName() { return "Material.Name"; }                       ///< string
+  static const char* MaterialReflectance() { return "Material.Reflectance"; }         ///< 3 float
+  static const char* MaterialEmittance() { return "Material.Emittance"; }             ///< 3 float, exitance W/m2
+  static const char* MaterialTwoSidedEmitter() { return "Material.TwoSidedEmitter"; } ///< unsigned char, 0 or 1
+  static const char* PartName() { return "Part.Name"; }                   ///< string
+  static const char* PartSource() { return "Part.Source"; }               ///< string, file or actor
+  static const char* PartMeshId() { return "Part.MeshId"; }               ///< int, parts of one mesh are instances
+  static const char* PartObjectToWorld() { return "Part.ObjectToWorld"; } ///< 16 double, row-major, to metres
+  static const char* LightName() { return "Light.Name"; }                 ///< string
+  static const char* LightType() { return "Light.Type"; }                 ///< int, 0 point, 1 spot, 2 directional, 3 sky
+  static const char* LightPosition() { return "Light.Position"; }         ///< 3 float, m
+  static const char* LightDirection() { return "Light.Direction"; }       ///< 3 float, unit, the way the light travels
+  static const char* LightIntensity() { return "Light.Intensity"; }       ///< 3 float, W/sr | directional W/m2 | sky W/(m2 sr)
+  static const char* LightConeAngles() { return "Light.ConeAngles"; }     ///< 2 float, inner and outer half-angle, radians
+  static const char* CameraPosition() { return "Camera.Position"; }       ///< 3 double, m
+  static const char* CameraFocalPoint() { return "Camera.FocalPoint"; }   ///< 3 double, m
+  static const char* CameraViewUp() { return "Camera.ViewUp"; }           ///< 3 double
+  static const char* CameraViewAngle() { return "Camera.ViewAngle"; }     ///< double, vertical field of view in degrees
   ///@}
 
 protected:

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace lambert
 {
@@ -37,6 +38,11 @@ std::vector<T> ReadTuples(vtkDataArray* array, int components, const char* name)
       std::to_string(components) + ".");
   }
   values.resize(static_cast<size_t>(array->GetNumberOfTuples()));
+  if (auto* floats = vtkFloatArray::FastDownCast(array); floats && !values.empty())
+  {
+    std::memcpy(static_cast<void*>(values.data()), floats->GetPointer(0), values.size() * sizeof(T));
+    return values;
+  }
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
   {
     float* tuple = reinterpret_cast<float*>(&values[static_cast<size_t>(i)]);
@@ -91,6 +97,27 @@ vtkSmartPointer<vtkFloatArray> FloatArray(
   }
   return array;
 }
+
+/// Reflectance is clamped to [0, 0.98]; emittance that makes no sense is an error.
+void BringIntoRange(TriangleMesh* mesh)
+{
+  for (Spectrum& reflectance : mesh->reflectance)
+  {
+    for (int band = 0; band < 3; ++band)
+    {
+      reflectance[band] = std::min(kMaximumReflectance, std::max(0.f, reflectance[band]));
+    }
+  }
+  for (size_t face = 0; face < mesh->emittance.size(); ++face)
+  {
+    const Spectrum& emittance = mesh->emittance[face];
+    if (!emittance.IsFinite() || std::min({ emittance.r, emittance.g, emittance.b }) < 0)
+    {
+      throw Error("Cell " + std::to_string(face) +
+        " has an emittance that is negative or not a finite number; repair the input.");
+    }
+  }
+}
 }
 
 TriangleMesh TriangleMeshFromPolyData(vtkPolyData* input)
@@ -103,6 +130,10 @@ TriangleMesh TriangleMeshFromPolyData(vtkPolyData* input)
 
   // Points.
   vtkPointData* pointData = input->GetPointData();
+  if (input->GetNumberOfPoints() > std::numeric_limits<int32_t>::max())
+  {
+    throw Error("The data has more than 2^31 points; split it.");
+  }
   mesh.positions = ReadTuples<Vec3f>(input->GetPoints()->GetData(), 3, "Points");
   mesh.normals = ReadTuples<Vec3f>(pointData->GetNormals(), 3, "Normals");
   mesh.uvs = ReadTuples<Vec2f>(pointData->GetTCoords(), 2, "TCoords");
@@ -140,13 +171,7 @@ TriangleMesh TriangleMeshFromPolyData(vtkPolyData* input)
   mesh.partId = ReadScalars<int32_t>(cellData->GetArray(Names::PartId()));
   mesh.surfaceId = ReadScalars<int32_t>(cellData->GetArray(Names::SurfaceId()));
   mesh.sourceCellId = ReadScalars<int64_t>(cellData->GetArray(Names::SourceCellId()));
-  for (Spectrum& reflectance : mesh.reflectance)
-  {
-    for (int band = 0; band < 3; ++band)
-    {
-      reflectance[band] = std::min(kMaximumReflectance, std::max(0.f, reflectance[band]));
-    }
-  }
+  BringIntoRange(&mesh);
   mesh.Complete();
   return mesh;
 }
@@ -192,8 +217,14 @@ void PolyDataFromTriangleMesh(const TriangleMesh& mesh, vtkPolyData* output)
   // What light needs to know of each face.
   vtkCellData* cellData = output->GetCellData();
   using Names = vtkRadiosityArrays;
-  cellData->AddArray(FloatArray(Names::Reflectance(), 3, mesh.reflectance));
-  cellData->AddArray(FloatArray(Names::Emittance(), 3, mesh.emittance));
+  if (!mesh.reflectance.empty())
+  {
+    cellData->AddArray(FloatArray(Names::Reflectance(), 3, mesh.reflectance));
+  }
+  if (!mesh.emittance.empty())
+  {
+    cellData->AddArray(FloatArray(Names::Emittance(), 3, mesh.emittance));
+  }
   WriteScalars<vtkUnsignedCharArray>(cellData, Names::FaceFlags(), mesh.faceFlags);
   WriteScalars<vtkIntArray>(cellData, Names::MaterialId(), mesh.materialId);
   WriteScalars<vtkIntArray>(cellData, Names::PartId(), mesh.partId);
