@@ -1,0 +1,33 @@
+// Files as they lie on disk: what is wrong with them is found here, before a parser guesses.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace lambert {
+
+/// The bytes of the file. Throws Error where it is missing, a folder, unreadable or empty.
+std::string LoadFile(const std::string& path);
+
+/// Extension in lower case, without the dot.
+std::string FileExtension(const std::string& path);
+
+/// What a scan of an OBJ file found.
+struct ObjScan {
+  std::string text;  ///< the file with numbers as the parser takes them (".2" as "0.2")
+  std::vector<std::string> missingMtl;  ///< material libraries that are not there
+  std::set<std::string> withKd;         ///< names of the materials whose library gives Kd
+};
+
+/// Checks every number of the vertices. Throws Error, with the line, where one is missing or not
+/// finite.
+ObjScan ScanObj(const std::string& path, const std::string& text);
+
+/// Throws Error where the file ends before the elements that its header announces.
+void CheckPly(const std::string& path, const std::string& bytes);
+
+/// Throws Error where a text file has no end.
+void CheckStl(const std::string& path, const std::string& bytes);
+
+}  // namespace lambert
