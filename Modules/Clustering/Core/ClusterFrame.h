@@ -9,8 +9,8 @@
 
 namespace lambert {
 
-/// An oriented box: center, right-handed unit axes, half extents. Axis 2 is the cluster's normal; the rectangle
-/// spanned by axes 0 and 1 through the center is the cluster's rectangle.
+/// An oriented box: center, right-handed unit axes, half extents. Axis 2 is the cluster's normal;
+/// the rectangle spanned by axes 0 and 1 through the center is the cluster's rectangle.
 struct ClusterFrame {
   Vec3f center;
   std::array<Vec3f, 3> axes;
@@ -24,11 +24,13 @@ struct ClusterFrame {
   }
 };
 
-/// Frame of the faces [firstFace, firstFace + faceCount): principal axes of the covariance (4.5-4.7); where it is
-/// unstable (nearly planar), the vector area as normal and the minimum-area rectangle of the projected points.
+/// Frame of the faces [firstFace, firstFace + faceCount): principal axes of the covariance
+/// (4.5-4.7); where it is unstable (nearly planar), the vector area as normal and the minimum-area
+/// rectangle of the projected points.
 ClusterFrame ComputeClusterFrame(const TriangleMesh& mesh, const ClusterNode& node);
 
-/// Minimum-area enclosing rectangle of points in the plane, by convex hull and rotating calipers (CGAL).
+/// Minimum-area enclosing rectangle of points in the plane, by convex hull and rotating calipers
+/// (CGAL).
 struct Rectangle2 {
   Vec2f center;
   Vec2f axis;        ///< unit, along the longer side

@@ -16,8 +16,8 @@ struct VolumeNode {
   Box3f bounds;
 };
 
-/// Binary tree over `boxes`, root first; empty for none. O(n log n). Ties are broken by index, so that the tree
-/// depends on the boxes alone.
+/// Binary tree over `boxes`, root first; empty for none. O(n log n). Ties are broken by index, so
+/// that the tree depends on the boxes alone.
 std::vector<VolumeNode> ClusterVolumes(const std::vector<Box3f>& boxes);
 
 }  // namespace lambert
