@@ -7,7 +7,8 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace lambert {
 
@@ -71,6 +72,7 @@ Triangles TriangulateDelaunay(const std::vector<PatchBorderVertex>& border) {
   }
 
   // A side that bends inward by a rounding leaves slivers outside: drop what reaches infinity.
+  for (const auto face : delaunay.all_face_handles()) face->info() = false;
   std::vector<Delaunay::Face_handle> outside = {delaunay.infinite_face()};
   outside.front()->info() = true;
   while (!outside.empty()) {
@@ -92,37 +94,44 @@ Triangles TriangulateDelaunay(const std::vector<PatchBorderVertex>& border) {
   return triangles;
 }
 
-// Shape of the ear at a vertex: area over squared longest edge; a t-vertex is no ear.
-double EarQuality(const std::vector<PatchBorderVertex>& border, int32_t a, int32_t b, int32_t c) {
-  const Vec2d p = border[size_t(a)].position, q = border[size_t(b)].position,
-              r = border[size_t(c)].position;
+// Shape of a triangle: area over squared longest edge.
+double Quality(Vec2d a, Vec2d b, Vec2d c) {
   double longest = 0;
-  for (const Vec2d edge : {q - p, r - q, p - r}) {
+  for (const Vec2d edge : {b - a, c - b, a - c}) {
     longest = std::max(longest, edge.x * edge.x + edge.y * edge.y);
   }
-  return longest > 0 ? Area2(p, q, r) / longest : 0;
+  return longest > 0 ? Area2(a, b, c) / longest : 0;
 }
 
 // Cuts the best-shaped ear until a triangle is left: always border.size() - 2 triangles along the
-// border.
-Triangles ClipEars(const std::vector<PatchBorderVertex>& border) {
-  std::vector<int32_t> loop(border.size());
-  for (size_t i = 0; i < loop.size(); ++i) loop[i] = int32_t(i);
+// border. Ears are cut at corners, and only where another corner remains, so that no triangle lies
+// in a side.
+Triangles ClipEars(std::vector<PatchBorderVertex> loop) {
+  std::vector<int32_t> index(loop.size());
+  std::iota(index.begin(), index.end(), 0);
   Triangles triangles;
   while (loop.size() > 2) {
     const size_t count = loop.size();
+    const auto corners = std::count_if(loop.begin(), loop.end(),
+                                       [](const PatchBorderVertex& v) { return v.isCorner; });
     size_t best = 0;
-    double bestQuality = -1;
+    double bestQuality = std::numeric_limits<double>::lowest();
     for (size_t i = 0; i < count; ++i) {
-      const double quality =
-          EarQuality(border, loop[(i + count - 1) % count], loop[i], loop[(i + 1) % count]);
+      const PatchBorderVertex& before = loop[(i + count - 1) % count];
+      const PatchBorderVertex& after = loop[(i + 1) % count];
+      const bool leavesCorner = corners > 1 + before.isCorner + after.isCorner || count == 3;
+      if (!loop[i].isCorner || !leavesCorner) continue;
+      const double quality = Quality(before.position, loop[i].position, after.position);
       if (quality > bestQuality) {
         bestQuality = quality;
         best = i;
       }
     }
-    triangles.push_back({loop[(best + count - 1) % count], loop[best], loop[(best + 1) % count]});
+    const size_t before = (best + count - 1) % count, after = (best + 1) % count;
+    triangles.push_back({index[before], index[best], index[after]});
+    loop[before].isCorner = loop[after].isCorner = true;
     loop.erase(loop.begin() + int64_t(best));
+    index.erase(index.begin() + int64_t(best));
   }
   return triangles;
 }

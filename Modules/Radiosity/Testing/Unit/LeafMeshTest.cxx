@@ -1,0 +1,455 @@
+// The leaf mesh: after output no vertex lies inside another triangle's edge, whatever was split.
+#include "Radiosity/Core/LeafMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <tuple>
+
+#include "Common/Core/Error.h"
+#include "Common/Core/Parallel.h"
+
+namespace lambert {
+namespace {
+
+using Place = std::tuple<float, float, float>;
+
+Place PlaceOf(const Vec3f& p) { return {p.x + 0.f, p.y + 0.f, p.z + 0.f}; }
+
+TriangleMesh Mesh(std::vector<Vec3f> positions, std::vector<std::array<int32_t, 3>> triangles) {
+  TriangleMesh mesh;
+  mesh.positions = std::move(positions);
+  mesh.triangles = std::move(triangles);
+  mesh.Complete();
+  return mesh;
+}
+
+// A bumpy grid of n x n squares. A crease along its middle gives the two halves points of their
+// own.
+TriangleMesh Grid(int n, bool withCrease, uint32_t seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> shift(-0.3f, 0.3f);
+  std::vector<Vec3f> positions;
+  for (int y = 0; y <= n; ++y) {
+    for (int x = 0; x <= n; ++x) {
+      positions.push_back({x + shift(random), y + shift(random), shift(random)});
+    }
+  }
+  const int crease = n / 2;
+  const int32_t copies = int32_t(positions.size());
+  for (int y = 0; y <= n; ++y) positions.push_back(positions[size_t(y * (n + 1) + crease)]);
+  const auto point = [&](int x, int y, bool isRight) {
+    return withCrease && isRight && x == crease ? copies + y : y * (n + 1) + x;
+  };
+  std::vector<std::array<int32_t, 3>> triangles;
+  for (int y = 0; y < n; ++y) {
+    for (int x = 0; x < n; ++x) {
+      const bool right = x >= crease;
+      const int32_t a = point(x, y, right), b = point(x + 1, y, right);
+      const int32_t c = point(x + 1, y + 1, right), d = point(x, y + 1, right);
+      triangles.push_back({a, b, c});
+      triangles.push_back({c, d, a});
+    }
+  }
+  return Mesh(positions, triangles);
+}
+
+// Blades around one edge, every second with points of its own and wound the other way.
+TriangleMesh Fan(int blades) {
+  std::vector<Vec3f> positions = {{0, 0, 0}, {0, 0, 1}, {0, 0, 0}, {0, 0, 1}};
+  std::vector<std::array<int32_t, 3>> triangles;
+  for (int i = 0; i < blades; ++i) {
+    const float angle = 6.2831853f * float(i) / float(blades);
+    positions.push_back({std::cos(angle), std::sin(angle), 0.3f + 0.1f * float(i)});
+    const int32_t tip = int32_t(positions.size()) - 1;
+    if (i % 2 == 0) triangles.push_back({0, 1, tip});
+    if (i % 2 == 1) triangles.push_back({3, 2, tip});
+  }
+  return Mesh(positions, triangles);
+}
+
+// Two fans of slivers, 1000 : 1, that meet along their long edges.
+TriangleMesh Slivers(int count) {
+  std::vector<Vec3f> positions;
+  for (int i = 0; i <= count; ++i) {
+    positions.push_back({0, 0.001f * float(i), 0});
+    positions.push_back({1, 0.001f * float(i), 0.0003f * float(i * i)});
+  }
+  std::vector<std::array<int32_t, 3>> triangles;
+  for (int32_t i = 0; i < count; ++i) {
+    const int32_t a = 2 * i, b = 2 * i + 1, c = 2 * i + 3, d = 2 * i + 2;
+    triangles.push_back({a, b, c});
+    triangles.push_back({a, c, d});
+  }
+  return Mesh(positions, triangles);
+}
+
+float LongestEdge(const std::vector<Vec3f>& corners) {
+  float longest = 0;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    longest = std::max(longest, Length(corners[(i + 1) % corners.size()] - corners[i]));
+  }
+  return longest;
+}
+
+double PolygonArea(const std::vector<Vec3f>& corners) {
+  Vec3d sum;
+  for (size_t i = 2; i < corners.size(); ++i) {
+    sum += Cross(Vec3d(corners[i - 1] - corners[0]), Vec3d(corners[i] - corners[0]));
+  }
+  return 0.5 * Length(sum);
+}
+
+// Splits leaf patches chosen at random, on both sides, starting at a third of the faces.
+void SplitAtRandom(const TriangleMesh& mesh, int splits, float smallest, uint32_t seed,
+                   LeafMesh* leaves) {
+  std::mt19937 random(seed);
+  std::vector<int32_t> open;
+  for (int32_t face = 0; face < mesh.FaceCount(); ++face) {
+    for (const Side side : {kFront, kBack}) {
+      if (random() % 3 == 0) open.push_back(leaves->FacePatch(face, side));
+    }
+  }
+  for (int i = 0; i < splits && !open.empty(); ++i) {
+    const size_t pick = random() % open.size();
+    const int32_t patch = open[pick];
+    open.erase(open.begin() + int64_t(pick));
+    if (LongestEdge(leaves->Corners(patch)) < smallest) continue;
+    const auto halves = leaves->Split(patch);
+    open.insert(open.end(), halves.begin(), halves.end());
+  }
+}
+
+struct Output {
+  Output(const TriangleMesh& input, LeafMesh* leaves)
+      : mesh(input),
+        triangles(leaves->Triangulate(std::vector<uint8_t>(size_t(input.FaceCount()), 3))),
+        vertices(leaves->Vertices()) {}
+
+  Vec3f Position(int32_t vertex) const {
+    const size_t points = mesh.positions.size();
+    return size_t(vertex) < points ? mesh.positions[size_t(vertex)]
+                                   : vertices[size_t(vertex) - points].position;
+  }
+  Vec3f Corner(const LeafTriangle& triangle, int corner) const {
+    return Position(triangle.vertices[size_t(corner)]);
+  }
+  Vec3d VectorArea(const LeafTriangle& t) const {
+    const Vec3d a(Corner(t, 0));
+    return Cross(Vec3d(Corner(t, 1)) - a, Vec3d(Corner(t, 2)) - a) * 0.5;
+  }
+
+  // Vertices of one side of the surface, and vertices of either side on input edges.
+  std::set<Place> Places(Side side) const {
+    std::set<Place> places;
+    for (const LeafTriangle& t : triangles) {
+      for (int i = 0; i < 3 && t.side == side; ++i) places.insert(PlaceOf(Corner(t, i)));
+    }
+    for (const LeafVertex& vertex : vertices) {
+      if (vertex.points[2] == vertex.points[0]) places.insert(PlaceOf(vertex.position));
+    }
+    return places;
+  }
+
+  // Vertices strictly inside edges of triangles: by geometry alone, over all pairs.
+  int VerticesInsideEdges() const {
+    const std::array<std::set<Place>, 2> places = {Places(kFront), Places(kBack)};
+    int count = 0;
+    for (const LeafTriangle& t : triangles) {
+      for (int i = 0; i < 3; ++i) {
+        const Vec3d a(Corner(t, i)), ab = Vec3d(Corner(t, (i + 1) % 3)) - a;
+        for (const auto& [x, y, z] : places[t.side]) {
+          const Vec3d ap = Vec3d(x, y, z) - a;
+          const double along = Dot(ap, ab) / LengthSquared(ab);
+          // A vertex on the edge is off it by the rounding of floats, 1e-7 of coordinates up to ten
+          // times the edges; vertices that belong elsewhere are off by the smallest patches, 1e-4.
+          const bool isBetween = along > 1e-5 && along < 1 - 1e-5;
+          if (isBetween && Length(Cross(ab, ap)) < 2e-6 * std::max(Length(ab), 1.0) * Length(ab)) {
+            ++count;
+          }
+        }
+      }
+    }
+    return count;
+  }
+
+  const TriangleMesh& mesh;
+  std::vector<LeafTriangle> triangles;
+  std::vector<LeafVertex> vertices;
+};
+
+// Counts how often an edge, by places, is used in each direction on one side.
+std::map<std::pair<Place, Place>, int> EdgeUses(const Output& output, Side side) {
+  std::map<std::pair<Place, Place>, int> uses;
+  for (const LeafTriangle& t : output.triangles) {
+    if (t.side != side) continue;
+    for (int i = 0; i < 3; ++i) {
+      ++uses[{PlaceOf(output.Corner(t, i)), PlaceOf(output.Corner(t, (i + 1) % 3))}];
+    }
+  }
+  return uses;
+}
+
+void ExpectSoundOutput(const TriangleMesh& mesh, const Output& output) {
+  EXPECT_EQ(output.VerticesInsideEdges(), 0);
+
+  // Areas: each side of each face is covered once, no triangle is turned over.
+  std::map<std::pair<int32_t, int>, double> areas;
+  for (const LeafTriangle& t : output.triangles) {
+    const Vec3d area = output.VectorArea(t);
+    areas[{t.face, t.side}] += Length(area);
+    EXPECT_GT(Dot(area, Vec3d(mesh.FrontNormal(t.face))), 0) << "face " << t.face;
+  }
+  for (int32_t face = 0; face < mesh.FaceCount(); ++face) {
+    for (int side = 0; side < 2; ++side) {
+      // Rounding moves vertices by 1e-7 of coordinates up to ten: 1e-4 of the slivers' width.
+      EXPECT_NEAR((areas[{face, side}]), mesh.Area(face), 1e-3 * mesh.Area(face));
+    }
+  }
+
+  // Water-tight: an edge without a partner lies on an input edge without one.
+  std::map<std::pair<Place, Place>, int> input;
+  for (const auto& triangle : mesh.triangles) {
+    for (size_t i = 0; i < 3; ++i) {
+      const Place a = PlaceOf(mesh.positions[size_t(triangle[i])]);
+      const Place b = PlaceOf(mesh.positions[size_t(triangle[(i + 1) % 3])]);
+      ++input[std::minmax(a, b)];
+    }
+  }
+  for (const Side side : {kFront, kBack}) {
+    std::map<std::pair<Place, Place>, int> undirected;
+    for (const auto& [edge, count] : EdgeUses(output, side)) {
+      undirected[std::minmax(edge.first, edge.second)] += count;
+    }
+    for (const auto& [edge, count] : undirected) {
+      if (count != 1) continue;
+      const auto vector = [](const Place& p) {
+        return Vec3d(std::get<0>(p), std::get<1>(p), std::get<2>(p));
+      };
+      const Vec3d p = (vector(edge.first) + vector(edge.second)) * 0.5;
+      bool isRim = false;
+      for (const auto& [border, faces] : input) {
+        const Vec3d a = vector(border.first), ab = vector(border.second) - a;
+        // Rounding of floats at coordinates up to ten.
+        isRim |= faces == 1 && Length(Cross(ab, p - a)) < 2e-6 * Length(ab);
+      }
+      EXPECT_TRUE(isRim) << "open edge at " << p.x << " " << p.y << " " << p.z;
+    }
+  }
+}
+
+TEST(LeafMesh, UnsplitFacesComeOutAsTheyWentIn) {
+  const TriangleMesh mesh = Grid(4, true, 1);
+  LeafMesh leaves(mesh);
+  const int32_t patch = leaves.FacePatch(3, kBack);
+  EXPECT_EQ(leaves.FacePatch(3, kBack), patch);
+  std::vector<uint8_t> lit(size_t(mesh.FaceCount()), 1);
+  lit[3] = 2;
+  lit[4] = 0;
+  const auto triangles = leaves.Triangulate(lit);
+  ASSERT_EQ(int64_t(triangles.size()), mesh.FaceCount() - 1);
+  EXPECT_EQ(triangles[3].side, kBack);
+  EXPECT_EQ(triangles[3].patch, patch);
+  EXPECT_EQ(triangles[3].vertices, mesh.triangles[3]);
+  EXPECT_EQ(triangles[4].face, 5);
+  EXPECT_EQ(triangles[4].patch, -1);
+  EXPECT_TRUE(leaves.Vertices().empty());
+  EXPECT_THROW(leaves.Triangulate({}), Error);
+}
+
+TEST(LeafMesh, RightTriangleIsCutThroughItsApex) {
+  const TriangleMesh mesh = Mesh({{0, 0, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 1, 2}});
+  LeafMesh leaves(mesh);
+  const auto halves = leaves.Split(leaves.FacePatch(0, kFront));
+  EXPECT_EQ(leaves.PatchCount(), 3);
+  for (const int32_t half : halves) {
+    EXPECT_EQ(leaves.Corners(half).size(), 3u);
+    EXPECT_DOUBLE_EQ(PolygonArea(leaves.Corners(half)), 0.5);
+    EXPECT_EQ(leaves.PatchFace(half), 0);
+  }
+  EXPECT_THROW(leaves.Split(0), Error);
+  ASSERT_EQ(leaves.Vertices().size(), 1u);
+  EXPECT_EQ(leaves.Vertices()[0].position, Vec3f(1, 0, 0));
+}
+
+TEST(LeafMesh, NoVertexLiesInsideAnEdge) {
+  for (uint32_t seed = 1; seed <= 6; ++seed) {
+    for (const TriangleMesh& mesh : {Grid(4, false, seed), Grid(4, true, seed), Fan(3), Fan(5)}) {
+      LeafMesh leaves(mesh);
+      SplitAtRandom(mesh, 90, 0.05f, seed, &leaves);
+      ExpectSoundOutput(mesh, Output(mesh, &leaves));
+    }
+  }
+}
+
+TEST(LeafMesh, SliversStayWatertight) {
+  for (uint32_t seed = 1; seed <= 4; ++seed) {
+    const TriangleMesh mesh = Slivers(5);
+    LeafMesh leaves(mesh);
+    SplitAtRandom(mesh, 120, 0.002f, seed, &leaves);
+    ExpectSoundOutput(mesh, Output(mesh, &leaves));
+  }
+}
+
+TEST(LeafMesh, RefiningOnBetweenOutputsKeepsItSound) {
+  const TriangleMesh mesh = Grid(4, true, 9);
+  LeafMesh stepwise(mesh), atOnce(mesh);
+  std::mt19937 random(5);
+  std::vector<int32_t> splits;
+  std::vector<int32_t> open = {stepwise.FacePatch(14, kFront), stepwise.FacePatch(15, kFront)};
+  for (int i = 0; i < 60; ++i) {
+    const size_t pick = random() % open.size();
+    splits.push_back(open[pick]);
+    const auto halves = stepwise.Split(open[pick]);
+    open[pick] = halves[0];
+    open.push_back(halves[1]);
+    if (i % 7 == 0) ExpectSoundOutput(mesh, Output(mesh, &stepwise));
+  }
+  atOnce.FacePatch(14, kFront);
+  atOnce.FacePatch(15, kFront);
+  for (const int32_t patch : splits) atOnce.Split(patch);
+  const Output a(mesh, &stepwise), b(mesh, &atOnce);
+  ASSERT_EQ(a.triangles.size(), b.triangles.size());
+  for (size_t i = 0; i < a.triangles.size(); ++i) {
+    for (int corner = 0; corner < 3; ++corner) {
+      EXPECT_EQ(a.Corner(a.triangles[i], corner), b.Corner(b.triangles[i], corner));
+    }
+  }
+}
+
+TEST(LeafMesh, VerticesAreSharedWhereInputPointsAre) {
+  // Faces 0 and 1 share points; face 2 lies on the same edge with points of its own.
+  const TriangleMesh mesh =
+      Mesh({{0, 0, 0}, {0, 2, 0}, {-1, 1, 0}, {1, 1, 0}, {0, 0, 0}, {0, 2, 0}, {0, 1, 1}},
+           {{0, 1, 2}, {1, 0, 3}, {4, 5, 6}});
+  LeafMesh leaves(mesh);
+  leaves.Split(leaves.FacePatch(0, kFront));
+  const Output output(mesh, &leaves);
+  std::map<int32_t, std::set<int32_t>> added;
+  for (const LeafTriangle& t : output.triangles) {
+    for (const int32_t v : t.vertices) {
+      if (v >= int32_t(mesh.PointCount())) added[t.face].insert(v);
+    }
+  }
+  ASSERT_EQ(added[0].size(), 1u);
+  EXPECT_EQ(added[0], added[1]);
+  ASSERT_EQ(added[2].size(), 1u);
+  EXPECT_NE(added[0], added[2]);
+  EXPECT_EQ(output.Position(*added[0].begin()), output.Position(*added[2].begin()));
+}
+
+TEST(LeafMesh, VerticesInterpolateTheirPoints) {
+  const TriangleMesh mesh = Grid(3, true, 4);
+  LeafMesh leaves(mesh);
+  SplitAtRandom(mesh, 80, 0.05f, 3, &leaves);
+  const Output output(mesh, &leaves);
+  ASSERT_FALSE(output.vertices.empty());
+  for (const LeafVertex& vertex : output.vertices) {
+    Vec3f sum;
+    for (int i = 0; i < 3; ++i)
+      sum += mesh.positions[size_t(vertex.points[size_t(i)])] * vertex.weights[i];
+    // Float rounding of three weights and coordinates up to four.
+    EXPECT_LT(Length(sum - vertex.position), 2e-6f);
+    EXPECT_NEAR(vertex.weights.x + vertex.weights.y + vertex.weights.z, 1, 1e-6);
+  }
+}
+
+TEST(LeafMesh, SplittingHalvesTheArea) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> coordinate(0, 1);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<Vec3f> corners(3);
+    for (Vec3f& p : corners) p = {coordinate(random), coordinate(random), coordinate(random)};
+    const TriangleMesh mesh = Mesh(corners, {{0, 1, 2}});
+    LeafMesh leaves(mesh);
+    const auto halves = leaves.Split(leaves.FacePatch(0, kFront));
+    const double first = PolygonArea(leaves.Corners(halves[0]));
+    const double second = PolygonArea(leaves.Corners(halves[1]));
+    // The cut stays between 0.35 and 0.65 of the length, where a wedge has at least an eighth of
+    // its area.
+    EXPECT_NEAR(first + second, mesh.Area(0), 1e-5 * mesh.Area(0) + 1e-7);
+    EXPECT_GT(std::min(first, second), 0.12 * mesh.Area(0));
+  }
+}
+
+TEST(LeafMesh, SliverEndsInWellShapedPatches) {
+  // Right-angled, isosceles and obtuse, 1000 : 1.
+  for (const float foot : {0.f, 0.0005f, 0.5f}) {
+    const TriangleMesh mesh =
+        Mesh({{0, 0, 0}, {1, 0, 0}, {foot == 0.0005f ? 0 : foot, 0.001f, 0}}, {{0, 1, 2}});
+    LeafMesh leaves(mesh);
+    std::vector<int32_t> open = {leaves.FacePatch(0, kFront)};
+    double badArea = 0;
+    while (!open.empty()) {
+      const int32_t patch = open.back();
+      open.pop_back();
+      const std::vector<Vec3f> corners = leaves.Corners(patch);
+      float low = 1, high = 0, bottom = 1, top = 0;
+      for (const Vec3f& p : corners) {
+        low = std::min(low, p.x), high = std::max(high, p.x);
+        bottom = std::min(bottom, p.y), top = std::max(top, p.y);
+      }
+      if (high - low < 4 * (top - bottom)) continue;
+      // What is left at a tip of the sliver is as sharp as the tip.
+      if (high - low < 0.0001f) {
+        badArea += PolygonArea(corners);
+        continue;
+      }
+      const auto halves = leaves.Split(patch);
+      open.insert(open.end(), halves.begin(), halves.end());
+    }
+    // A tip is sharper than 1 : 4 for pieces of 1e-4 over its first 0.025, 6e-4 of a wedge with one
+    // tip them.
+    EXPECT_LT(badArea, 1e-3 * mesh.Area(0));
+  }
+}
+
+TEST(LeafMesh, DegenerateFacesAreSplitWithoutHarm) {
+  const std::vector<std::vector<Vec3f>> degenerate = {
+      {{0, 0, 0}, {1, 0, 0}, {0.5f, 0, 0}},
+      {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}},
+      {{1, 2, 3}, {1, 2, 3}, {1, 2, 3}},
+      {{0, 0, 0}, {1, 0, 0}, {0.3f, 1e-12f, 0}},
+      {{100, 100, 100}, {100, 100.00001f, 100}, {-100, 100, 100}}};
+  for (const auto& corners : degenerate) {
+    const TriangleMesh mesh = Mesh(corners, {{0, 1, 2}});
+    LeafMesh leaves(mesh);
+    std::vector<int32_t> open = {leaves.FacePatch(0, kFront)};
+    for (size_t i = 0; i < 60; ++i) {
+      const auto halves = leaves.Split(open[i]);
+      open.insert(open.end(), halves.begin(), halves.end());
+    }
+    for (const LeafTriangle& t : Output(mesh, &leaves).triangles) {
+      for (const int32_t v : t.vertices) EXPECT_LT(v, 3 + int32_t(leaves.Vertices().size()));
+    }
+    for (const LeafVertex& vertex : leaves.Vertices()) {
+      EXPECT_TRUE(IsFinite(vertex.position));
+      EXPECT_TRUE(IsFinite(vertex.weights));
+    }
+  }
+}
+
+TEST(LeafMesh, SameTrianglesForAnyNumberOfThreads) {
+  const TriangleMesh mesh = Grid(8, true, 21);
+  std::vector<std::vector<LeafTriangle>> results;
+  for (const int threads : {1, 2, 7}) {
+    SetThreadCount(threads);
+    LeafMesh leaves(mesh);
+    SplitAtRandom(mesh, 500, 0.01f, 8, &leaves);
+    results.push_back(Output(mesh, &leaves).triangles);
+  }
+  SetThreadCount(0);
+  for (const auto& result : results) {
+    ASSERT_EQ(result.size(), results[0].size());
+    for (size_t i = 0; i < result.size(); ++i)
+      EXPECT_EQ(result[i].vertices, results[0][i].vertices);
+  }
+}
+
+}  // namespace
+}  // namespace lambert
