@@ -11,24 +11,33 @@
 namespace lambert {
 
 struct SolutionErrorOptions {
-  int points = 2000;   ///< receiver points, stratified by area over every side of every face that
+  int points = 2000;   ///< receiver points, stratified by area over both sides of every face that
                        ///< does not emit
-  int samples = 1024;  ///< paths a point
+  int samples = 1024;  ///< paths a point, [2, inf)
   uint64_t seed = 1;
 };
 
 /// Errors are fractions; confidence intervals are 95 % bootstrap.
 struct SolutionError {
   double rms = 0, rmsLow = 0, rmsHigh = 0;  ///< the reference's own noise estimated and subtracted
-  double bounded = 0;                       ///< bounded error of the contract
+  double bounded = 0;                       ///< bounded error of the contract, noise subtracted too
   double bias = 0;                          ///< signed: (mean E - mean Eref) / mean Eref
-  double percentile95 = 0;                  ///< of the pointwise relative error
-  int64_t points = 0;                       ///< receiving points that counted
+  /// Of the pointwise relative error |E - Eref| / |Eref|; Eref counts as a thousandth of its mean
+  /// where it is less.
+  double percentile95 = 0;
+  int64_t points = 0;  ///< receiving points, those that counted
+  int64_t darkPoints =
+      0;  ///< left out: on sides that the solution does not model, and dark in the reference too
+  int64_t missedPoints =
+      0;             ///< of the receiving ones: lit in the reference, not modelled by the solution
+  double noise = 0;  ///< relative RMS noise of the reference, what was subtracted from `rms`
 };
 
 /// Compares the irradiance that `solution` delivers (interpolated from its vertices) with a path
-/// trace of `scene`. A side that the solution does not model counts with 0 where the reference
-/// finds light there.
+/// trace of `scene`, whose mesh it solved. A side that the solution does not model counts with 0
+/// where the reference finds light there; where the reference finds none within two standard errors
+/// it does not count. A scene without light has no error. Throws Error where the solution belongs
+/// to another scene, for fewer than 1 point or 2 samples; Cancelled.
 SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& solution,
                                    const SolutionErrorOptions& options = {},
                                    const ProgressCallback& progress = {});

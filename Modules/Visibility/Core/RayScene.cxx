@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -106,6 +107,22 @@ RayHit RayScene::Closest(const Vec3f& from, const Vec3f& unitDirection) const {
   hit.distance = query.ray.tfar;
   hit.barycentric = {query.hit.u, query.hit.v};
   return hit;
+}
+
+std::vector<int32_t> RayScene::FacesNear(const Vec3f& point, float radius) const {
+  std::vector<int32_t> faces;
+  RTCPointQuery query;
+  query.x = point.x, query.y = point.y, query.z = point.z;
+  query.time = 0, query.radius = radius;
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  const auto collect = [](RTCPointQueryFunctionArguments* found) {
+    static_cast<std::vector<int32_t>*>(found->userPtr)->push_back(int32_t(found->primID));
+    return false;  // the radius stays as it is
+  };
+  rtcPointQuery(implementation_->scene, &query, &context, collect, &faces);
+  std::sort(faces.begin(), faces.end());
+  return faces;
 }
 
 }  // namespace lambert

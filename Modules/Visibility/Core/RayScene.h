@@ -32,14 +32,16 @@ class RayScene {
   float Epsilon() const;
   float Diagonal() const;
 
-  /// occluded[i] = 1 where segment i is blocked. Hits nearer than Epsilon() to either end do not block. Safe to call
-  /// from several threads.
+  /// occluded[i] = 1 where segment i is blocked. Hits nearer than Epsilon() to either end do not
+  /// block. Safe to call from several threads.
   void Occluded(const Segment* segments, int count, uint8_t* occluded) const;
   bool Occluded(const Vec3f& from, const Vec3f& to) const;
   /// True where a ray to infinity is blocked.
   bool OccludedDirection(const Vec3f& from, const Vec3f& direction) const;
   /// The closest hit beyond Epsilon().
   RayHit Closest(const Vec3f& from, const Vec3f& unitDirection) const;
+  /// Faces whose bounds come within `radius` (m) of a point, in ascending order.
+  std::vector<int32_t> FacesNear(const Vec3f& point, float radius) const;
 
  private:
   struct Implementation;

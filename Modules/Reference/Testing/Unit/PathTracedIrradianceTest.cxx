@@ -191,7 +191,7 @@ TEST(PathTracedIrradiance, BlockerBetweenSquares) {
           {{(float(i % n) + 0.5f) / n, (float(i / n) + 0.5f) / n, 0}, {0, 0, 1}, {0, 0, 1}});
     }
     PathTracedIrradianceOptions options;
-    options.samples = 64;
+    options.samples = 256;
     double mean = 0, variance = 0;
     for (const IrradianceEstimate& e : PathTracedIrradiance(scene).Estimate(points, options)) {
       mean += e.irradiance.g / (n * n);

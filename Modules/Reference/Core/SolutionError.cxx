@@ -1,0 +1,213 @@
+#include "Reference/Core/SolutionError.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "Common/Core/Error.h"
+#include "Common/Core/Random.h"
+#include "Reference/Core/PathTracedIrradiance.h"
+#include "Visibility/Core/SolutionLookup.h"
+
+namespace lambert {
+
+namespace {
+
+/// Paths that find out whether a side that the solution leaves out is dark. A point that all of
+/// them find black gets at most a few hundredths of its light by ways that they can miss.
+constexpr int kDarknessSamples = 64;
+constexpr int kBootstraps = 1000;
+
+/// A place on one side of a face.
+struct Place {
+  int32_t face;
+  Side side;
+  ReceiverPoint receiver;
+};
+
+/// One receiving point, ready to be summed.
+struct Comparison {
+  double squaredError = 0;          ///< |E - Eref|^2 less the noise of Eref
+  double squaredReference = 0;      ///< |Eref|^2 less its noise
+  double variance = 0;              ///< of the noise, all bands
+  double error = 0, reference = 0;  ///< |E - Eref|, |Eref|
+  double delivered = 0, truth = 0;  ///< sums of the bands
+};
+
+/// The receiver at barycentric b on one side: its normal is the interpolated one of the mesh,
+/// turned to that side.
+ReceiverPoint ReceiverAt(const TriangleMesh& mesh, int32_t face, Side side, const Vec2f& b) {
+  const std::array<int32_t, 3>& corners = mesh.triangles[size_t(face)];
+  const auto interpolate = [&](const std::vector<Vec3f>& values) {
+    return values[size_t(corners[0])] * (1 - b.x - b.y) + values[size_t(corners[1])] * b.x +
+           values[size_t(corners[2])] * b.y;
+  };
+  ReceiverPoint point;
+  point.position = interpolate(mesh.positions);
+  point.geometricNormal = mesh.FrontNormal(face) * (side == kFront ? 1.f : -1.f);
+  const Vec3f normal = mesh.normals.empty() ? Vec3f() : Normalize(interpolate(mesh.normals));
+  point.normal = Dot(normal, point.geometricNormal) < 0 ? -normal : normal;
+  if (LengthSquared(normal) == 0) point.normal = point.geometricNormal;
+  return point;
+}
+
+/// Places stratified by area over both sides of every face that does not emit: all fronts, then all
+/// backs.
+std::vector<Place> StratifiedPlaces(const TriangleMesh& mesh, const SolutionErrorOptions& options) {
+  std::vector<double> upTo(size_t(mesh.FaceCount()));
+  double total = 0;
+  for (int32_t face = 0; face < int32_t(mesh.FaceCount()); ++face) {
+    const bool emits = (mesh.Emits(face, kFront) || mesh.Emits(face, kBack)) &&
+                       !mesh.emittance[size_t(face)].IsBlack();
+    if (!emits) total += mesh.Area(face);
+    upTo[size_t(face)] = total;
+  }
+  std::vector<Place> places;
+  if (!(total > 0)) return places;
+  for (int i = 0; i < options.points; ++i) {
+    Random random(HashBits(options.seed, uint64_t(i)));
+    const double target = 2 * total * (i + random.UniformDouble()) / options.points;
+    const Side side = target < total ? kFront : kBack;
+    const auto found =
+        std::upper_bound(upTo.begin(), upTo.end(), side == kFront ? target : target - total);
+    if (found == upTo.end()) continue;
+    const int32_t face = int32_t(found - upTo.begin());
+    const float u = random.Uniform(), v = random.Uniform();
+    places.push_back({face, side, ReceiverAt(mesh, face, side, UniformTriangle(u, v))});
+  }
+  return places;
+}
+
+std::vector<ReceiverPoint> Receivers(const std::vector<Place>& places) {
+  std::vector<ReceiverPoint> receivers;
+  for (const Place& place : places) receivers.push_back(place.receiver);
+  return receivers;
+}
+
+double SquaredNorm(const Spectrum& s) {
+  return double(s.r) * s.r + double(s.g) * s.g + double(s.b) * s.b;
+}
+
+/// Leaves out, at little cost, the places that are dark in the solution and in a few paths.
+std::vector<Place> WithoutDarkPlaces(std::vector<Place> places, const SolutionLookup& lookup,
+                                     const PathTracedIrradiance& tracer,
+                                     const SolutionErrorOptions& options) {
+  std::vector<Place> kept, doubtful;
+  for (const Place& place : places) {
+    (lookup.Models(place.face, place.side) ? kept : doubtful).push_back(place);
+  }
+  PathTracedIrradianceOptions few;
+  few.samples = std::min(kDarknessSamples, options.samples);
+  few.seed = HashBits(options.seed, 0x6461726bull);
+  const auto light = tracer.Estimate(Receivers(doubtful), few);
+  for (size_t i = 0; i < doubtful.size(); ++i) {
+    if (!light[i].irradiance.IsBlack()) kept.push_back(doubtful[i]);
+  }
+  return kept;
+}
+
+Comparison Compare(const Spectrum& delivered, const IrradianceEstimate& reference) {
+  Comparison c;
+  const double error = SquaredNorm(delivered - reference.irradiance);
+  const double truth = SquaredNorm(reference.irradiance);
+  c.variance = SquaredNorm(reference.standardError);
+  c.squaredError = error - c.variance;
+  c.squaredReference = truth - c.variance;
+  c.error = std::sqrt(error);
+  c.reference = std::sqrt(truth);
+  c.delivered = 3.0 * delivered.Mean();
+  c.truth = 3.0 * reference.irradiance.Mean();
+  return c;
+}
+
+/// Relative RMS error of the comparisons that `pick(i)` names.
+template <class Pick>
+double RelativeRms(const std::vector<Comparison>& comparisons, const Pick& pick) {
+  double error = 0, reference = 0;
+  for (size_t i = 0; i < comparisons.size(); ++i) {
+    const Comparison& c = comparisons[pick(i)];
+    error += c.squaredError;
+    reference += c.squaredReference;
+  }
+  return error > 0 && reference > 0 ? std::sqrt(error / reference) : 0;
+}
+
+void Bootstrap(const std::vector<Comparison>& comparisons, uint64_t seed, SolutionError* error) {
+  std::vector<double> values(kBootstraps);
+  Random random(HashBits(seed, 0x626f6f74ull));
+  for (double& value : values) {
+    value = RelativeRms(comparisons, [&](size_t) {
+      return size_t(random.UniformDouble() * double(comparisons.size()));
+    });
+  }
+  std::sort(values.begin(), values.end());
+  error->rmsLow = values[size_t(0.025 * kBootstraps)];
+  error->rmsHigh = values[size_t(0.975 * kBootstraps)];
+}
+
+void Summarize(const std::vector<Comparison>& comparisons, SolutionError* error) {
+  double delivered = 0, truth = 0, meanReference = 0, variance = 0, squares = 0;
+  for (const Comparison& c : comparisons) {
+    delivered += c.delivered, truth += c.truth, variance += c.variance;
+    meanReference += c.reference / double(comparisons.size());
+    squares += c.squaredReference;
+  }
+  // No light at all: nothing to miss.
+  if (!(truth > 0)) return;
+  error->rms = RelativeRms(comparisons, [](size_t i) { return i; });
+  error->bias = (delivered - truth) / truth;
+  error->noise = squares > 0 ? std::sqrt(variance / squares) : 0;
+
+  double bounded = 0;
+  std::vector<double> relative;
+  for (const Comparison& c : comparisons) {
+    const double scale = std::max(c.reference, meanReference);
+    bounded += c.squaredError / (scale * scale) / double(comparisons.size());
+    relative.push_back(c.error / std::max(c.reference, 1e-3 * meanReference));
+  }
+  error->bounded = std::sqrt(std::max(0.0, bounded));
+  const auto rank = relative.begin() + int64_t(0.95 * double(relative.size() - 1));
+  std::nth_element(relative.begin(), rank, relative.end());
+  error->percentile95 = *rank;
+}
+
+}  // namespace
+
+SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& solution,
+                                   const SolutionErrorOptions& options,
+                                   const ProgressCallback& progress) {
+  if (options.points < 1) throw Error("An error needs at least one point to be measured at.");
+  const SolutionLookup lookup(solution, scene.mesh.FaceCount());
+  const PathTracedIrradiance tracer(scene);
+
+  // Places that may receive light, and the truth there.
+  const std::vector<Place> all = StratifiedPlaces(scene.mesh, options);
+  const std::vector<Place> places = WithoutDarkPlaces(all, lookup, tracer, options);
+  PathTracedIrradianceOptions trace;
+  trace.samples = options.samples;
+  trace.seed = options.seed;
+  const auto reference = tracer.Estimate(Receivers(places), trace, progress);
+
+  // What the solution delivers there.
+  SolutionError error;
+  std::vector<Comparison> comparisons;
+  for (size_t i = 0; i < places.size(); ++i) {
+    const Place& place = places[i];
+    const Comparison c =
+        Compare(lookup.Irradiance(lookup.Find(place.face, place.side, place.receiver.position)),
+                reference[i]);
+    if (!lookup.Models(place.face, place.side)) {
+      if (c.reference <= 2 * std::sqrt(c.variance)) continue;
+      ++error.missedPoints;
+    }
+    comparisons.push_back(c);
+  }
+  error.points = int64_t(comparisons.size());
+  error.darkPoints = int64_t(all.size()) - error.points;
+  if (comparisons.empty()) return error;
+  Summarize(comparisons, &error);
+  Bootstrap(comparisons, options.seed, &error);
+  return error;
+}
+
+}  // namespace lambert

@@ -1,0 +1,107 @@
+// The error of solutions whose error is known.
+#include "Reference/Core/SolutionError.h"
+
+#include <gtest/gtest.h>
+
+#include "Common/Core/Error.h"
+#include "Common/Testing/SolutionFixtures.h"
+#include "Common/Testing/TestScenes.h"
+
+namespace lambert {
+namespace {
+
+using namespace testing;
+
+/// A furnace whose floor does not emit, so that there is something to measure at. Its floor
+/// reflects nothing: with the other walls black too, the floor's irradiance is the exitance 1 of
+/// what it sees.
+Scene BlackFurnace() {
+  Scene scene;
+  BoxMaterials materials(0, 1);
+  materials.emittance[kFloor] = Spectrum(0.f);
+  AddBox(&scene.mesh, {0, 0, 0}, {1, 1, 1}, materials, true, 2);
+  CompleteTables(&scene);
+  return scene;
+}
+
+TEST(SolutionError, NoneOfAnExactSolution) {
+  const Scene scene = BlackFurnace();
+  const SolutionError error =
+      MeasureSolutionError(scene, FlatSolution(scene, 1, 3, false), {500, 256, 1});
+  // Half of the points lie on the dark outside of the floor.
+  EXPECT_NEAR(double(error.points), 250, 1);
+  EXPECT_EQ(error.points + error.darkPoints, 500);
+  EXPECT_EQ(error.missedPoints, 0);
+  // Without the subtraction the rms would be the noise. What is left of its square is chance: over
+  // 250 points a relative spread of sqrt((2 + 2/15) / 250) = 0.09, four times of which is 0.6^2.
+  EXPECT_LT(error.rms, 0.6 * error.noise);
+  EXPECT_LT(error.noise, 0.02);
+  EXPECT_NEAR(error.bias, 0, 4 * error.noise / std::sqrt(double(error.points)));
+}
+
+TEST(SolutionError, TenPercentOfASolutionScaledByIt) {
+  const Scene scene = BlackFurnace();
+  const SolutionError error =
+      MeasureSolutionError(scene, FlatSolution(scene, 1.1f, 3, false), {500, 256, 1});
+  // The noise of the mean, four times.
+  const double allowance = 4 * error.noise / std::sqrt(double(error.points)) + 1e-5;
+  EXPECT_NEAR(error.rms, 0.1, allowance);
+  EXPECT_NEAR(error.bias, 0.1, allowance);
+  EXPECT_NEAR(error.bounded, 0.1, allowance + error.noise);
+  EXPECT_NEAR(error.percentile95, 0.1, 3 * error.noise);
+  EXPECT_LE(error.rmsLow, error.rms);
+  EXPECT_GE(error.rmsHigh, error.rms);
+}
+
+TEST(SolutionError, AllOfASolutionThatModelsNothing) {
+  const Scene scene = BlackFurnace();
+  RadiositySolution nothing;
+  const SolutionError error = MeasureSolutionError(scene, nothing, {200, 64, 1});
+  EXPECT_NEAR(double(error.missedPoints), 100, 1);
+  EXPECT_NEAR(error.rms, 1, 1e-6);
+  EXPECT_NEAR(error.bias, -1, 1e-6);
+}
+
+TEST(SolutionError, InterpolatesWithinRefinedFaces) {
+  // Irradiance 1 + x on a floor under a sky would be wrong by x everywhere: rms^2 is the mean of
+  // x^2 = 1/3, the bias the mean of x = 1/2. 4000 stratified points sample that to 1 %.
+  Scene scene;
+  AddQuad(&scene.mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Spectrum(0.f));
+  Light sky;
+  sky.type = LightType::Sky;
+  sky.intensity = Spectrum(float(1 / kPi));
+  scene.lights = {sky};
+  CompleteTables(&scene);
+  RadiositySolution solution = FlatSolution(scene, 1, 5);
+  for (size_t i = 0; i < solution.irradiance.size(); ++i) {
+    if (solution.mesh.normals[i].z > 0) {
+      solution.irradiance[i] = Spectrum(1 + solution.mesh.positions[i].x);
+    }
+  }
+  const SolutionError error = MeasureSolutionError(scene, solution, {4000, 32, 1});
+  EXPECT_EQ(error.points, 4000) << "both sides lie open under the sky";
+  EXPECT_NEAR(error.rms, std::sqrt(1 / 6.0), 0.01) << "the back is exact, the front is not";
+  EXPECT_NEAR(error.bias, 0.25, 0.01);
+}
+
+TEST(SolutionError, NoLightNoError) {
+  Scene scene;
+  AddQuad(&scene.mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Spectrum(0.5f));
+  CompleteTables(&scene);
+  const SolutionError error = MeasureSolutionError(scene, FlatSolution(scene, 0, 2), {50, 16, 1});
+  EXPECT_EQ(error.rms, 0);
+  EXPECT_EQ(error.bounded, 0);
+  EXPECT_EQ(error.bias, 0);
+}
+
+TEST(SolutionError, RefusesAnotherScenesSolution) {
+  const Scene scene = BlackFurnace();
+  Scene small;
+  AddQuad(&small.mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Spectrum(0.f));
+  EXPECT_THROW(MeasureSolutionError(small, FlatSolution(scene, 1, 1)), Error);
+  EXPECT_THROW(MeasureSolutionError(scene, FlatSolution(scene, 1, 1), {0, 64, 1}), Error);
+  EXPECT_THROW(MeasureSolutionError(scene, FlatSolution(scene, 1, 1), {10, 1, 1}), Error);
+}
+
+}  // namespace
+}  // namespace lambert
