@@ -38,15 +38,14 @@ std::array<int32_t, 2> LeafMesh::Implementation::Split(int32_t id) {
   if (patch.meshFace < 0) AddIsland(id);
 
   // Choose the line and put its ends into the border, and with it into the neighbours' (4.4.2).
-  const Border before = BorderOf(patch);
-  const auto cut = CutPatch(before.polygon, options.snapTolerance);
-  const int32_t from = CutVertex(patch, before, cut[0]);
-  const int32_t to = CutVertex(patch, before, cut[1]);
+  BorderOf(patch, &scratch);
+  const auto cut = CutPatch(scratch.polygon, options.snapTolerance);
+  const int32_t from = CutVertex(patch, scratch, cut[0]);
+  const int32_t to = CutVertex(patch, scratch, cut[1]);
 
   // Draw the line as an edge of the half-edge mesh.
   HalfedgeHandle intoFrom, outOfTo;
-  for (const int32_t h : BorderOf(patch).halfedges) {
-    const HalfedgeHandle halfedge(h);
+  for (const HalfedgeHandle halfedge : halfedges.fh_range(FaceHandle(patch.meshFace))) {
     if (halfedges.to_vertex_handle(halfedge).idx() == from) intoFrom = halfedge;
     if (halfedges.from_vertex_handle(halfedge).idx() == to) outOfTo = halfedge;
   }
@@ -67,7 +66,8 @@ std::array<int32_t, 2> LeafMesh::Implementation::Split(int32_t id) {
     child.face = patch.face;
     child.side = patch.side;
     child.meshFace = meshFaces[half];
-    child.corners = CornersOf(BorderOf(child));
+    BorderOf(child, &scratch);
+    child.corners = CornersOf(scratch);
     patchOfMeshFace[size_t(child.meshFace)] = first + half;
   }
   patch.firstChild = first;
@@ -177,11 +177,13 @@ int32_t LeafMesh::Implementation::RimVertex(const Patch& patch, int32_t line, do
   throw Error("An edge of face " + std::to_string(patch.face) + " is not in the leaf mesh.");
 }
 
-LeafMesh::Implementation::Border LeafMesh::Implementation::BorderOf(const Patch& patch) const {
+void LeafMesh::Implementation::BorderOf(const Patch& patch, Border* border) const {
+  border->polygon.clear();
+  border->vertices.clear();
+  border->halfedges.clear();
   const auto flat =
       FlattenTriangle(Vec3d(mesh.Corner(patch.face, 0)), Vec3d(mesh.Corner(patch.face, 1)),
                       Vec3d(mesh.Corner(patch.face, 2)));
-  Border border;
   const HalfedgeHandle start = halfedges.halfedge_handle(FaceHandle(patch.meshFace));
   HalfedgeHandle halfedge = start;
   int32_t lineBefore = lineOfEdge[size_t(halfedges.prev_halfedge_handle(start).idx() / 2)];
@@ -189,22 +191,23 @@ LeafMesh::Implementation::Border LeafMesh::Implementation::BorderOf(const Patch&
     const int32_t vertex = halfedges.from_vertex_handle(halfedge).idx();
     const int32_t line = lineOfEdge[size_t(halfedge.idx() / 2)];
     const Vec3d& w = meshVertices[size_t(vertex)].weights;
-    border.polygon.push_back({flat[0] * w.x + flat[1] * w.y + flat[2] * w.z, line != lineBefore});
-    border.vertices.push_back(vertex);
-    border.halfedges.push_back(halfedge.idx());
+    border->polygon.push_back({flat[0] * w.x + flat[1] * w.y + flat[2] * w.z, line != lineBefore});
+    border->vertices.push_back(vertex);
+    border->halfedges.push_back(halfedge.idx());
     lineBefore = line;
     halfedge = halfedges.next_halfedge_handle(halfedge);
   } while (halfedge != start);
-  return border;
 }
 
 std::vector<Vec3f> LeafMesh::Implementation::CornersOf(const Border& border) const {
+  const auto count = std::count_if(border.polygon.begin(), border.polygon.end(),
+                                   [](const PatchBorderVertex& v) { return v.isCorner; });
   std::vector<Vec3f> corners;
+  corners.reserve(size_t(count));
   for (size_t i = 0; i < border.vertices.size(); ++i) {
     if (!border.polygon[i].isCorner) continue;
     corners.push_back(edges.Position(meshVertices[size_t(border.vertices[i])].number));
   }
-  corners.shrink_to_fit();
   return corners;
 }
 

@@ -69,7 +69,7 @@ struct LeafMesh::Implementation {
   int32_t CutVertex(const Patch& patch, const Border& border, const PatchCutEnd& end);
   int32_t RimVertex(const Patch& patch, int32_t line, double fromWeight, double toWeight);
   std::vector<Vec3f> CornersOf(const Border& border) const;
-  Border BorderOf(const Patch& patch) const;
+  void BorderOf(const Patch& patch, Border* border) const;
 
   // Triangles.
   std::vector<LeafTriangle> Triangulate(const std::vector<uint8_t>& litSides);
@@ -91,6 +91,7 @@ struct LeafMesh::Implementation {
   std::vector<int32_t> lineOfEdge;       // Per mesh edge: 0 to 2 on the rim, else 3 + patch id.
   std::vector<int32_t> patchOfMeshFace;  // Per polygon.
   std::vector<std::vector<EdgeUse>> edgeUses;  // Per stored input edge.
+  Border scratch;                              // Of the patch being split.
 };
 
 }  // namespace lambert

@@ -79,7 +79,8 @@ void LeafMesh::Implementation::TriangulatePatches(const std::vector<uint8_t>& li
   }
   ParallelForEach(int64_t(changed.size()), 64, [&](int64_t i) {
     Patch& patch = *changed[size_t(i)];
-    const Border border = BorderOf(patch);
+    Border border;
+    BorderOf(patch, &border);
     patch.triangles = TriangulatePatch(border.polygon);
     for (auto& triangle : patch.triangles) {
       for (int32_t& v : triangle) v = meshVertices[size_t(border.vertices[size_t(v)])].number;
