@@ -1,0 +1,179 @@
+#include "Arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+
+#include "Engine/SolutionFile.h"
+
+namespace lambert {
+namespace {
+
+const std::map<std::string, double> kUnits{
+    {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
+constexpr int kDefaultVerifyPoints = 2000;
+
+Spectrum ToSpectrum(const std::vector<float>& bands) { return {bands[0], bands[1], bands[2]}; }
+
+/// Numbers separated by `separator`; empty where any of them is not one.
+std::vector<double> ParseNumbers(const std::string& text, char separator) {
+  std::vector<double> numbers;
+  std::stringstream stream(text);
+  for (std::string field; std::getline(stream, field, separator);) {
+    char* end = nullptr;
+    numbers.push_back(std::strtod(field.c_str(), &end));
+    if (field.empty() || *end || !std::isfinite(numbers.back())) return {};
+  }
+  return numbers;
+}
+
+}  // namespace
+
+void SceneArguments::AddTo(CLI::App* command) {
+  command->add_option("SCENE", files, "Scene files: OBJ, glTF/GLB, PLY, STL, VTP")->required();
+  command->add_option("--unit", unit, "Length unit of the files: m, cm, mm, in, ft")
+      ->check(CLI::IsMember({"m", "cm", "mm", "in", "ft"}));
+  command->add_option("--set", settings, "MATERIAL:reflectance=R,G,B|emission=R,G,B|two-sided")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--reflectance", reflectance, "Reflectance R G B of faces whose file gives none")
+      ->expected(3)
+      ->check(CLI::Range(0., 1.))
+      ->capture_default_str();
+  command->add_flag("--two-sided-emitters", twoSidedEmitters,
+                    "Every emitter emits from both sides");
+  command->add_flag("--opaque-glass", opaqueGlass, "Transparent materials block and reflect");
+  command
+      ->add_option("--metals", metals, "Metals reflect their base colour, or black for none of it")
+      ->check(CLI::IsMember({"base", "black"}))
+      ->capture_default_str();
+  command->add_flag("--no-weld", noWeld, "Do not join equal points");
+  command->add_flag("--no-zero-area", noZeroArea, "Keep triangles without area");
+  command->add_flag("--no-repeated", noRepeated, "Keep repeated triangles");
+  command->add_flag("--no-orient", noOrient, "Do not wind pieces consistently");
+  command->add_flag("--no-emitter-fix", noEmitterFix, "Do not turn inverted emitters");
+  command->add_option("--feature-angle", featureAngle, "Degrees within which normals are smoothed")
+      ->check(CLI::Range(0., 180.))
+      ->capture_default_str();
+}
+
+void SceneArguments::Apply(RadiosityRunOptions* options) const {
+  options->files = files;
+  options->settings = settings;
+  options->reader.metresPerUnit = unit.empty() ? 0 : kUnits.at(unit);
+  options->reader.defaultReflectance = ToSpectrum(reflectance);
+  options->reader.twoSidedEmitters = twoSidedEmitters;
+  options->reader.opaqueGlass = opaqueGlass;
+  options->reader.blackMetals = metals == "black";
+  options->cleaning.weld = !noWeld;
+  options->cleaning.removeZeroArea = !noZeroArea;
+  options->cleaning.removeRepeated = !noRepeated;
+  options->cleaning.orient = !noOrient;
+  options->cleaning.fixEmitters = !noEmitterFix;
+  options->cleaning.featureAngle = featureAngle;
+}
+
+void SolveArguments::AddTo(CLI::App* command) {
+  scene.AddTo(command);
+
+  // How well and how long.
+  command->add_option("-o,--output", output, "Solved scene, .vtp or .ply")->required();
+  command->add_option("--error", solver.error, "Wanted relative RMS error of irradiance, (0, 1]")
+      ->check(CLI::Range(1e-6, 1.))
+      ->capture_default_str();
+  command->add_option("--time", time, "Seconds since the program began, writing included")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--iterations", solver.iterations, "Iterations after which to end")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--threads", threads, "Threads; 0: all processors")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_option("--sky", sky, "Radiance R G B of a constant sky, W/(m2 sr)")
+      ->expected(3)
+      ->check(CLI::NonNegativeNumber);
+
+  // What comes out beside the solution.
+  command->add_option("--probe", probe, "CSV of probe points: x,y,z,nx,ny,nz");
+  command->add_option("--probe-output", probeOutput, "CSV of readings: x,y,z,nx,ny,nz,r,g,b,kind");
+  command->add_flag("--probe-gather", probeGather, "Probes gather on surfaces too");
+  command->add_option("--image", image, "PNG picture (needs an X display, xvfb-run will do)");
+  command->add_option("--size", size, "Size of the picture, WxH pixels")->capture_default_str();
+  command->add_option("--camera", camera, "px,py,pz,fx,fy,fz[,fov]: eye, point looked at, degrees");
+  command->add_option("--exposure", exposure, "Stops (EV) brighter or darker")
+      ->capture_default_str();
+  command->add_flag("--both-sides", bothSides, "PLY: keep both lit sides of a face");
+  command->add_option("--report", report, "Account of the run, JSON");
+  command
+      ->add_option("--verify", verifyPoints, "Measure the error at N points against a path trace")
+      ->expected(0, 1)
+      ->default_str(std::to_string(kDefaultVerifyPoints))
+      ->check(CLI::Range(1, 10000000));
+  const std::map<std::string, ProgressStyle> styles{{"auto", ProgressStyle::Auto},
+                                                    {"plain", ProgressStyle::Plain},
+                                                    {"none", ProgressStyle::None}};
+  command
+      ->add_option("--progress", progress, "auto: a bar on a terminal, lines in a log; plain; none")
+      ->transform(CLI::CheckedTransformer(styles).description("{auto,plain,none}"));
+}
+
+void SolveArguments::Check() const {
+  if (!IsSolutionFileName(output)) {
+    throw CLI::ValidationError("--output", "the name has to end in .vtp or .ply");
+  }
+  if (probe.empty() != probeOutput.empty()) {
+    throw CLI::ValidationError("--probe", "--probe and --probe-output belong together");
+  }
+  if (!std::isfinite(exposure)) throw CLI::ValidationError("--exposure", "not a finite number");
+  ImageSize();
+  ImageCamera();
+}
+
+std::array<int, 2> SolveArguments::ImageSize() const {
+  const std::vector<double> numbers = ParseNumbers(size, 'x');
+  if (numbers.size() != 2 || numbers[0] < 1 || numbers[1] < 1 || numbers[0] > 8192 ||
+      numbers[1] > 8192) {
+    throw CLI::ValidationError("--size", "needs WxH, 1 to 8192 pixels each");
+  }
+  return {int(numbers[0]), int(numbers[1])};
+}
+
+std::optional<Camera> SolveArguments::ImageCamera() const {
+  if (camera.empty()) return {};
+  const std::vector<double> n = ParseNumbers(camera, ',');
+  if (n.size() != 6 && n.size() != 7) {
+    throw CLI::ValidationError("--camera", "needs px,py,pz,fx,fy,fz or px,py,pz,fx,fy,fz,fov");
+  }
+  Camera view;
+  view.position = {n[0], n[1], n[2]};
+  view.focalPoint = {n[3], n[4], n[5]};
+  if (n.size() == 7) view.verticalFieldOfView = n[6];
+  const Vec3d forward = Normalize(view.focalPoint - view.position);
+  if (forward == Vec3d() || !(view.verticalFieldOfView > 0 && view.verticalFieldOfView < 180)) {
+    throw CLI::ValidationError(
+        "--camera", "needs two different points and a field of view of 0 to 180 degrees");
+  }
+  if (std::abs(forward.y) > 0.999)
+    view.viewUp = {0, 0, -1};  // Straight up or down: -z is up in the picture.
+  return view;
+}
+
+RadiosityRunOptions SolveArguments::RunOptions() const {
+  RadiosityRunOptions options;
+  scene.Apply(&options);
+  options.solver = solver;
+  options.timeLimit = time;
+  if (!sky.empty()) options.sky = ToSpectrum(sky);
+  // A picture costs a GL context and four samples a pixel: some 2 s a megapixel drawn in software.
+  const auto pixels = ImageSize();
+  if (!image.empty()) options.outputSeconds += 0.5 + 2e-6 * pixels[0] * pixels[1];
+  return options;
+}
+
+void InfoArguments::AddTo(CLI::App* command) {
+  scene.AddTo(command);
+  command->add_flag("--json", json, "Machine-readable");
+}
+
+}  // namespace lambert

@@ -1,0 +1,65 @@
+// What the command line asks for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Engine/RadiosityRun.h"
+#include "Scene/Core/Scene.h"
+
+namespace CLI {
+class App;
+}
+
+namespace lambert {
+
+enum class ProgressStyle { Auto, Plain, None };
+
+/// Options that `solve` and `info` share: how files are read and cleaned.
+struct SceneArguments {
+  std::vector<std::string> files;
+  std::string unit;
+  std::vector<float> reflectance{0.5f, 0.5f, 0.5f};
+  std::string metals = "base";
+  std::vector<std::string> settings;
+  bool twoSidedEmitters = false, opaqueGlass = false;
+  bool noWeld = false, noZeroArea = false, noRepeated = false, noOrient = false,
+       noEmitterFix = false;
+  double featureAngle = CleaningOptions().featureAngle;
+
+  void AddTo(CLI::App* command);
+  void Apply(RadiosityRunOptions* options) const;
+};
+
+struct SolveArguments {
+  SceneArguments scene;
+  std::string output;
+  HierarchicalRadiosityOptions solver;
+  double time = 0;
+  int threads = 0;
+  std::vector<float> sky;
+  std::string probe, probeOutput, image, size = "960x720", camera, report;
+  bool probeGather = false, bothSides = false;
+  double exposure = 0;
+  ProgressStyle progress = ProgressStyle::Auto;
+  int verifyPoints = 0;
+
+  void AddTo(CLI::App* command);
+  /// Throws CLI::ValidationError where options contradict each other or do not parse.
+  void Check() const;
+  /// Width and height in pixels.
+  std::array<int, 2> ImageSize() const;
+  /// The camera that was asked for, if any.
+  std::optional<Camera> ImageCamera() const;
+  RadiosityRunOptions RunOptions() const;
+};
+
+struct InfoArguments {
+  SceneArguments scene;
+  bool json = false;
+
+  void AddTo(CLI::App* command);
+};
+
+}  // namespace lambert

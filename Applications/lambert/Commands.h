@@ -1,0 +1,11 @@
+// The commands. They throw lambert::Error for what goes wrong and return the exit code.
+#pragma once
+
+#include "Arguments.h"
+
+namespace lambert {
+
+int Solve(const SolveArguments& arguments);
+int Info(const InfoArguments& arguments);
+
+}  // namespace lambert

@@ -1,0 +1,39 @@
+// Progress on stderr: a bar on a terminal, lines in a log.
+#pragma once
+
+#include <mutex>
+#include <string>
+
+#include "Arguments.h"
+#include "Common/Core/Progress.h"
+#include "Common/Core/Timer.h"
+#include "Scene/Core/RadiositySolution.h"
+
+namespace lambert {
+
+class ProgressDisplay {
+ public:
+  explicit ProgressDisplay(ProgressStyle style);
+  ~ProgressDisplay();
+
+  /// Names the stage that begins.
+  void Begin(const std::string& stage);
+  /// How far the stage is. Safe to call from any thread.
+  void Update(double fraction, const char* detail);
+  void EndIteration(const IterationRecord& record);
+  /// A line of its own, whatever the style but none.
+  void Say(const std::string& sentence);
+  /// Clears the bar.
+  void Finish();
+
+ private:
+  void Line(const std::string& text);
+
+  enum class Mode { Bar, Lines, Silent } mode_;
+  std::string stage_;
+  Timer sinceDrawn_;
+  bool drawn_ = false;
+  std::mutex mutex_;
+};
+
+}  // namespace lambert

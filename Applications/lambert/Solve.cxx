@@ -1,0 +1,149 @@
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "Commands.h"
+#include "Common/Core/Error.h"
+#include "Common/Core/Parallel.h"
+#include "Common/Core/Timer.h"
+#include "Display/vtkRadiosityImageWriter.h"
+#include "Engine/ProbeFile.h"
+#include "Engine/RunReport.h"
+#include "Engine/SolutionFile.h"
+#include "Interrupt.h"
+#include "ProgressDisplay.h"
+#include "Scene/vtkSceneAdapter.h"
+
+namespace lambert {
+namespace {
+
+/// Everything that can be refused is refused before the solver's first second.
+void CheckOutputs(const SolveArguments& arguments) {
+  for (const std::string& name :
+       {arguments.output, arguments.image, arguments.report, arguments.probeOutput}) {
+    if (!name.empty()) RequireWritable(name);
+  }
+  if (!arguments.image.empty() && !vtkRadiosityImageWriter::IsDisplayAvailable()) {
+    throw Error("Drawing a picture needs an X display and none answers: run under xvfb-run.");
+  }
+}
+
+void WriteImage(const SolveArguments& arguments, const RadiosityRun& run) {
+  vtkNew<vtkPolyData> data;
+  PolyDataFromSolution(run.Solution(), data);
+  vtkNew<vtkRadiosityImageWriter> writer;
+  const auto size = arguments.ImageSize();
+  writer->SetInputData(data);
+  writer->SetSize(size[0], size[1]);
+  writer->SetExposure(arguments.exposure);
+  writer->SetFileName(arguments.image.c_str());
+
+  // The eye: as asked for, the file's, or one that the writer chooses.
+  const std::optional<Camera> camera =
+      arguments.ImageCamera() ? arguments.ImageCamera() : run.GetScene().camera;
+  if (camera) {
+    const Vec3d &p = camera->position, &f = camera->focalPoint, &up = camera->viewUp;
+    writer->SetCamera(p.x, p.y, p.z, f.x, f.y, f.z);
+    writer->SetViewUp(up.x, up.y, up.z);
+    writer->SetViewAngle(camera->verticalFieldOfView);
+  }
+  writer->Write();
+  if (writer->GetErrorCode() != 0) {
+    throw Error("The picture " + arguments.image + " could not be written.");
+  }
+}
+
+void ReadProbes(const SolveArguments& arguments, const RadiosityRun& run,
+                const std::vector<ProbePoint>& points) {
+  IrradianceProbeOptions options;
+  options.forceGather = arguments.probeGather;
+  const RayScene rays(run.GetScene().mesh);
+  WriteProbeFile(arguments.probeOutput, points,
+                 ReadIrradianceProbes(run.GetScene(), rays, run.Solution(), points, options));
+}
+
+void WriteReport(const std::string& fileName, const RadiosityRun& run) {
+  std::ofstream file(fileName);
+  file << RunReportJson(run, LAMBERT_VERSION) << '\n';
+  if (!file.flush()) throw Error("The report " + fileName + " could not be written.");
+}
+
+void PrintSummary(const SolveArguments& arguments, const RadiosityRun& run) {
+  const SolverStatistics& s = run.Statistics();
+  const TriangleMesh& mesh = run.Solution().mesh;
+  std::printf("%s: %lld triangles, %lld points\n", arguments.output.c_str(),
+              static_cast<long long>(mesh.FaceCount()), static_cast<long long>(mesh.PointCount()));
+  std::printf("stopped by %s after %zu iterations: %lld elements, %lld links, %lld rays\n",
+              s.stoppedBy.c_str(), s.history.size(), static_cast<long long>(s.Elements()),
+              static_cast<long long>(s.Links()), static_cast<long long>(s.rays));
+  if (run.Error()) {
+    const SolutionError& e = *run.Error();
+    std::printf("measured error: rms %.4f [%.4f, %.4f], bounded %.4f, bias %+.4f at %lld points\n",
+                e.rms, e.rmsLow, e.rmsHigh, e.bounded, e.bias, static_cast<long long>(e.points));
+  }
+  std::printf("%.2f s, %.0f MB at most\n", SecondsSinceProcessStart(),
+              double(PeakMemoryBytes()) / 1e6);
+}
+
+/// Runs `work` as a stage of the run, with its time.
+template <class Work>
+void Stage(const char* name, ProgressDisplay* display, RadiosityRun* run, const Work& work) {
+  display->Begin(name);
+  Timer timer;
+  work();
+  run->AddStage(name, timer.Seconds());
+}
+
+}  // namespace
+
+int Solve(const SolveArguments& arguments) {
+  // What can be refused at once.
+  CheckOutputs(arguments);
+  const std::vector<ProbePoint> probes =
+      arguments.probe.empty() ? std::vector<ProbePoint>() : ReadProbeFile(arguments.probe);
+  SetThreadCount(arguments.threads);
+  CatchInterrupt();
+  ProgressDisplay display(arguments.progress);
+  const ProgressCallback progress = [&](double fraction, const char* stage) {
+    display.Update(fraction, stage);
+    return !IsInterrupted();
+  };
+
+  // Scene, clusters, light.
+  RadiosityRun run(arguments.RunOptions());
+  display.Begin("reading");
+  run.Load(progress);
+  for (const std::string& warning : run.Warnings()) display.Say("warning: " + warning);
+  run.RequireLight();
+  display.Begin("clustering");
+  run.Cluster(progress);
+  display.Begin("solving");
+  run.Solve(progress, IsInterrupted, [&](const IterationRecord& r) { display.EndIteration(r); });
+  if (IsInterrupted()) display.Say("Interrupted: writing what has been solved.");
+
+  // Outputs.
+  Stage("write", &display, &run, [&] {
+    WriteSolution(run.Solution(), arguments.output, arguments.exposure, arguments.bothSides);
+  });
+  if (!arguments.probe.empty()) {
+    Stage("probe", &display, &run, [&] { ReadProbes(arguments, run, probes); });
+  }
+  if (!arguments.image.empty()) {
+    Stage("image", &display, &run, [&] { WriteImage(arguments, run); });
+  }
+  if (arguments.verifyPoints > 0 && !IsInterrupted()) {
+    display.Begin("verifying");
+    run.Verify(arguments.verifyPoints, [&](double fraction, const char* stage) {
+      display.Update(fraction, stage);
+      return true;
+    });
+  }
+  if (!arguments.report.empty()) WriteReport(arguments.report, run);
+  display.Finish();
+  PrintSummary(arguments, run);
+  return 0;
+}
+
+}  // namespace lambert

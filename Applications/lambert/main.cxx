@@ -1,0 +1,53 @@
+// lambert: solves scenes from the command line. Exit 0 done, 1 failed, 2 wrong usage.
+#include <vtkObject.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+
+#include "Commands.h"
+#include "Common/Core/Error.h"
+
+namespace {
+
+constexpr int kFailed = 1, kWrongUsage = 2;
+
+int Complain(const char* sentence, int exitCode) {
+  std::fprintf(stderr, "lambert: %s\n", sentence);
+  return exitCode;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // Commands and their options.
+  CLI::App app(
+      "Lambert computes the diffuse global illumination of scenes by hierarchical radiosity.",
+      "lambert");
+  app.set_version_flag("--version", "lambert " LAMBERT_VERSION);
+  app.require_subcommand(1);
+  lambert::SolveArguments solve;
+  lambert::InfoArguments info;
+  CLI::App* solveCommand = app.add_subcommand("solve", "Light a scene");
+  CLI::App* infoCommand = app.add_subcommand("info", "Say what a scene holds");
+  solve.AddTo(solveCommand);
+  info.AddTo(infoCommand);
+  try {
+    app.parse(argc, argv);
+    if (*solveCommand) solve.Check();
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kWrongUsage;
+  }
+
+  // Whatever fails says so in one sentence of ours.
+  vtkObject::GlobalWarningDisplayOff();
+  try {
+    return *infoCommand ? lambert::Info(info) : lambert::Solve(solve);
+  } catch (const lambert::Cancelled&) {
+    return Complain("Interrupted before the first iteration; nothing was written.", kFailed);
+  } catch (const std::bad_alloc&) {
+    return Complain("The memory does not suffice.", kFailed);
+  } catch (const std::exception& error) {
+    return Complain(error.what(), kFailed);
+  }
+}

@@ -1,0 +1,83 @@
+// From scene files to a solved scene: the stages in order, their times, and when to stop. C++ only.
+#ifndef RadiosityRun_h
+#define RadiosityRun_h
+
+#include "Clustering/Core/FaceClustering.h"
+#include "Common/Core/Progress.h"
+#include "Radiosity/Core/HierarchicalRadiosity.h"
+#include "Reference/Core/SolutionError.h"
+#include "Scene/Core/RadiositySolution.h"
+#include "Scene/Core/SceneCleaning.h"
+#include "Scene/Core/SceneReader.h"
+#include "lambertEngineModule.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lambert {
+struct RadiosityRunOptions {
+  std::vector<std::string> files;  ///< read one after the other into one scene
+  SceneReaderOptions reader;
+  std::vector<std::string> settings;  ///< changes to materials, as ApplyMaterialSetting takes them
+  CleaningOptions cleaning;
+  FaceClusteringOptions clustering;
+  HierarchicalRadiosityOptions solver;
+  std::optional<Spectrum> sky;  ///< radiance of a constant sky, W/(m2 sr)
+  double timeLimit = 0;         ///< seconds since the process began, writing included; 0: none
+  double outputSeconds = 0.2;   ///< kept free for what is not proportional to the mesh (a picture)
+};
+
+/// Runs the stages one after the other and keeps what each made.
+class LAMBERTENGINE_EXPORT RadiosityRun {
+ public:
+  explicit RadiosityRun(const RadiosityRunOptions& options);
+  ~RadiosityRun();
+
+  /// Reads the files, changes materials, cleans up, adds the sky. Throws Error, Cancelled.
+  void Load(const ProgressCallback& progress = {});
+  /// Throws Error, before any work, for a scene without light.
+  void RequireLight() const;
+  /// Builds the face-cluster tree. Throws Cancelled.
+  void Cluster(const ProgressCallback& progress = {});
+  /// Solves until the request is met, until another iteration and the output would not fit into the
+  /// time limit, or until `interrupted` says so; all end at the border of an iteration. `observer`
+  /// hears of every iteration.
+  void Solve(const ProgressCallback& progress = {}, const std::function<bool()>& interrupted = {},
+             const std::function<void(const IterationRecord&)>& observer = {});
+  /// Measures how far the solution is from a path-traced reference at `points` points.
+  void Verify(int points, const ProgressCallback& progress = {});
+
+  const RadiosityRunOptions& Options() const { return this->options_; }
+  const Scene& GetScene() const { return this->scene_; }
+  const ReadReport& Reading() const { return this->reading_; }
+  const CleaningReport& Cleaning() const { return this->cleaning_; }
+  const FaceClusteringStatistics& Clustering() const { return this->clustering_; }
+  const SolverStatistics& Statistics() const { return this->statistics_; }
+  const RadiositySolution& Solution() const { return this->solution_; }
+  const std::optional<SolutionError>& Error() const { return this->error_; }
+  /// What the user should know, one sentence each, of every stage.
+  std::vector<std::string> Warnings() const;
+
+  /// Seconds a stage took, by name, in order. A stage of the caller's own (writing) is added with
+  /// AddStage.
+  const std::vector<std::pair<std::string, double>>& Stages() const { return this->stages_; }
+  void AddStage(const std::string& name, double seconds);
+
+ private:
+  RadiosityRunOptions options_;
+  Scene scene_;
+  ReadReport reading_;
+  CleaningReport cleaning_;
+  FaceClusteringStatistics clustering_;
+  ClusterTree tree_;
+  SolverStatistics statistics_;
+  RadiositySolution solution_;
+  std::optional<SolutionError> error_;
+  std::vector<std::pair<std::string, double>> stages_;
+};
+}  // namespace lambert
+
+#endif

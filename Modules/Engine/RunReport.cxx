@@ -1,0 +1,166 @@
+#include "RunReport.h"
+
+#include "Common/Core/Parallel.h"
+#include "Common/Core/Timer.h"
+#include "RadiosityRun.h"
+#include "SceneSummary.h"
+
+#include <nlohmann/json.hpp>
+
+namespace lambert {
+namespace {
+using Json = nlohmann::ordered_json;
+
+Json ToJson(const Spectrum& s) { return {s.r, s.g, s.b}; }
+Json ToJson(const Vec3f& v) { return {v.x, v.y, v.z}; }
+
+Json SceneJson(const RadiosityRun& run) {
+  const SceneSummary s = SummarizeScene(run.GetScene());
+  const ReadReport& reading = run.Reading();
+  return {{"unit", reading.unit},
+          {"metres_per_unit", reading.metresPerUnit},
+          {"triangles", s.triangles},
+          {"points", s.points},
+          {"parts", s.parts},
+          {"meshes", s.meshes},
+          {"materials", s.materials},
+          {"area_m2", s.area},
+          {"bounds_low_m", ToJson(s.bounds.low)},
+          {"bounds_high_m", ToJson(s.bounds.high)},
+          {"diagonal_m", s.bounds.Diagonal()},
+          {"emitting_faces", s.emittingFaces},
+          {"lights",
+           {{"point", s.pointLights},
+            {"spot", s.spotLights},
+            {"directional", s.directionalLights},
+            {"sky", s.skies}}},
+          {"emitted_by_faces_w", ToJson(s.emittedByFaces)},
+          {"emitted_by_lights_w", ToJson(s.emittedByLights)}};
+}
+
+Json ReadingJson(const ReadReport& r) {
+  return {{"faces", r.faces},
+          {"polygons_triangulated", r.polygonsTriangulated},
+          {"lines_and_points_ignored", r.linesAndPointsIgnored},
+          {"materials_clamped", r.materialsClamped},
+          {"transparent_materials", r.transparentMaterials},
+          {"transparent_faces", r.transparentFaces},
+          {"masked_materials", r.maskedMaterials},
+          {"textures_missing", r.texturesMissing}};
+}
+
+Json CleaningJson(const CleaningReport& c) {
+  return {{"points_welded", c.pointsWelded},
+          {"zero_area_triangles", c.zeroAreaTriangles},
+          {"repeated_triangles", c.repeatedTriangles},
+          {"repeated_other_material", c.repeatedOtherMaterial},
+          {"points_unused", c.pointsUnused},
+          {"faces_rewound", c.facesRewound},
+          {"non_orientable_pieces", c.nonOrientablePieces},
+          {"inverted_emitters", c.invertedEmitters},
+          {"non_manifold_edges", c.nonManifoldEdges},
+          {"open_edges", c.openEdges},
+          {"normals_made", c.normalsMade},
+          {"normals_repaired", c.normalsRepaired},
+          {"pieces", c.pieces}};
+}
+
+Json ClusteringJson(const FaceClusteringStatistics& c) {
+  return {{"surfaces", c.surfaces},
+          {"nodes", c.nodes},
+          {"shared_trees", c.sharedTrees},
+          {"non_manifold_edges", c.nonManifoldEdges},
+          {"inconsistent_edges", c.inconsistentEdges},
+          {"maximum_depth", c.maximumDepth},
+          {"maximum_depth_over_log2", c.maximumDepthOverLog}};
+}
+
+Json LinksJson(const SolverStatistics& s) {
+  return {{"total", s.Links()},          {"volume_volume", s.volumeVolume},
+          {"volume_face", s.volumeFace}, {"volume_patch", s.volumePatch},
+          {"face_face", s.faceFace},     {"face_patch", s.facePatch},
+          {"patch_patch", s.patchPatch}, {"from_lights", s.fromLights},
+          {"at_floor", s.linksAtFloor}};
+}
+
+Json HistoryJson(const SolverStatistics& s) {
+  Json history = Json::array();
+  for (const IterationRecord& record : s.history) {
+    history.push_back({{"iteration", record.iteration},
+                       {"seconds", record.seconds},
+                       {"threshold", record.threshold},
+                       {"elements", record.elements},
+                       {"links", record.links},
+                       {"rays", record.rays},
+                       {"change", record.change}});
+  }
+  return history;
+}
+
+Json ErrorJson(const SolutionError& e) {
+  return {{"rms", e.rms},         {"rms_low", e.rmsLow}, {"rms_high", e.rmsHigh},
+          {"bounded", e.bounded}, {"bias", e.bias},      {"percentile_95", e.percentile95},
+          {"points", e.points}};
+}
+
+Json SecondsJson(const RadiosityRun& run) {
+  Json seconds;
+  for (const auto& [name, value] : run.Stages()) {
+    seconds[name] = value;
+  }
+  seconds["total"] = SecondsSinceProcessStart();
+  return seconds;
+}
+
+void AddSceneAndCleanUp(const RadiosityRun& run, Json* report) {
+  (*report)["files"] = run.Options().files;
+  (*report)["scene"] = SceneJson(run);
+  (*report)["reading"] = ReadingJson(run.Reading());
+  (*report)["clean_up"] = CleaningJson(run.Cleaning());
+  (*report)["warnings"] = run.Warnings();
+}
+}  // namespace
+
+std::string SceneReportJson(const RadiosityRun& run) {
+  Json report;
+  AddSceneAndCleanUp(run, &report);
+  return report.dump(2);
+}
+
+std::string RunReportJson(const RadiosityRun& run, const std::string& version) {
+  // What went in.
+  Json report;
+  report["lambert"] = version;
+  AddSceneAndCleanUp(run, &report);
+  report["clustering"] = ClusteringJson(run.Clustering());
+
+  // What it cost.
+  const SolverStatistics& s = run.Statistics();
+  report["threads"] = ThreadCount();
+  report["seconds"] = SecondsJson(run);
+  report["peak_memory_bytes"] = PeakMemoryBytes();
+
+  // How the light came about.
+  report["requested_error"] = run.Options().solver.error;
+  report["stopped_by"] = s.stoppedBy;
+  report["iterations"] = s.history.size();
+  report["elements"] = {{"total", s.Elements()},
+                        {"volume", s.volumeElements},
+                        {"face", s.faceElements},
+                        {"patch", s.patchElements}};
+  report["links"] = LinksJson(s);
+  report["rays"] = s.rays;
+  report["energy_w"] = {{"emitted", ToJson(s.emitted)},
+                        {"absorbed", ToJson(s.absorbed)},
+                        {"escaped", ToJson(s.escaped)}};
+  report["history"] = HistoryJson(s);
+
+  // What came out.
+  report["output"] = {{"triangles", run.Solution().mesh.FaceCount()},
+                      {"points", run.Solution().mesh.PointCount()}};
+  if (run.Error()) {
+    report["error"] = ErrorJson(*run.Error());
+  }
+  return report.dump(2);
+}
+}  // namespace lambert

@@ -1,0 +1,67 @@
+#include "SceneSummary.h"
+
+#include <set>
+
+namespace lambert {
+namespace {
+/// Power of a lamp, W: the intensity integrated over the sphere; the spot's edge by the midpoint
+/// rule.
+Spectrum LampPower(const Light& light) {
+  if (light.type == LightType::Point) {
+    return light.intensity * static_cast<float>(4 * kPi);
+  }
+  constexpr int kRings = 1024;
+  double solidAngle = 0;
+  for (int ring = 0; ring < kRings; ++ring) {
+    const float z = 1 - 2 * (static_cast<float>(ring) + 0.5f) / kRings;
+    Vec3f u, v;
+    CoordinateSystem(light.direction, &u, &v);
+    const Vec3f d = light.direction * z + u * std::sqrt(std::max(0.f, 1 - z * z));
+    solidAngle += light.ConeFactor(d) * 4 * kPi / kRings;
+  }
+  return light.intensity * static_cast<float>(solidAngle);
+}
+}  // namespace
+
+SceneSummary SummarizeScene(const Scene& scene) {
+  // Geometry.
+  SceneSummary summary;
+  const TriangleMesh& mesh = scene.mesh;
+  summary.triangles = mesh.FaceCount();
+  summary.points = mesh.PointCount();
+  summary.parts = static_cast<int64_t>(scene.parts.size());
+  summary.materials = static_cast<int64_t>(scene.materials.size());
+  std::set<int32_t> meshes;
+  for (const Part& part : scene.parts) {
+    meshes.insert(part.meshId);
+  }
+  summary.meshes = static_cast<int64_t>(meshes.size());
+  summary.bounds = mesh.Bounds();
+
+  // Emitting faces.
+  double power[3] = {0, 0, 0};
+  for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
+    const double area = mesh.Area(face);
+    const Spectrum& emittance = mesh.emittance[static_cast<size_t>(face)];
+    const int sides = (mesh.Emits(face, kFront) ? 1 : 0) + (mesh.Emits(face, kBack) ? 1 : 0);
+    summary.area += area;
+    summary.emittingFaces += sides > 0 && !emittance.IsBlack();
+    for (int band = 0; band < 3; ++band) {
+      power[band] += sides * area * emittance[band];
+    }
+  }
+  summary.emittedByFaces = {float(power[0]), float(power[1]), float(power[2])};
+
+  // Lamps.
+  for (const Light& light : scene.lights) {
+    summary.pointLights += light.type == LightType::Point;
+    summary.spotLights += light.type == LightType::Spot;
+    summary.directionalLights += light.type == LightType::Directional;
+    summary.skies += light.type == LightType::Sky;
+    if (light.type == LightType::Point || light.type == LightType::Spot) {
+      summary.emittedByLights += LampPower(light);
+    }
+  }
+  return summary;
+}
+}  // namespace lambert

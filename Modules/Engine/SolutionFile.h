@@ -1,0 +1,31 @@
+// Solved scenes as files: .vtp with every array, .ply with vertex colours. C++ only.
+#ifndef SolutionFile_h
+#define SolutionFile_h
+
+#include "Scene/Core/RadiositySolution.h"
+#include "lambertEngineModule.h"
+
+#include <string>
+
+namespace lambert {
+/// True for the names that WriteSolution can write: ending in .vtp or .ply, in any case.
+LAMBERTENGINE_EXPORT bool IsSolutionFileName(const std::string& fileName);
+
+/// Writes by the ending. `.vtp`: the refined mesh with all its arrays. `.ply`: binary, per vertex x
+/// y z, nx ny nz, red green blue (tone mapped, sRGB), irradiance_r irradiance_g irradiance_b
+/// (W/m2). Viewers of PLY do not cull, so of a face with two lit sides the brighter stays, unless
+/// `bothSides`. Throws Error where the file cannot be written.
+LAMBERTENGINE_EXPORT void WriteSolution(const RadiositySolution& solution,
+                                        const std::string& fileName, double exposure = 0,
+                                        bool bothSides = false);
+
+/// Throws Error, one sentence, where `fileName` cannot be written: no such folder, no right, a
+/// folder itself.
+LAMBERTENGINE_EXPORT void RequireWritable(const std::string& fileName);
+
+/// Triangles of `solution` to be shown without culling: of each input face its brighter side, by
+/// the mean luminance of radiosity over the side.
+LAMBERTENGINE_EXPORT std::vector<int64_t> BrighterSides(const RadiositySolution& solution);
+}  // namespace lambert
+
+#endif

@@ -1,0 +1,12 @@
+# Makes a picture and compares it with its baseline; see lambert_add_image_test.
+get_filename_component(folder "${image}" DIRECTORY)
+file(MAKE_DIRECTORY "${folder}")
+file(REMOVE "${image}")
+execute_process(COMMAND ${command} RESULT_VARIABLE result)
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "The command that makes the picture ended with ${result}.")
+endif()
+execute_process(COMMAND "${compare}" "${image}" "${baseline}" RESULT_VARIABLE result)
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "The picture ${image} differs from ${baseline}.")
+endif()
