@@ -4,7 +4,7 @@
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/camera.h>
 #include <assimp/light.h>
-#include <assimp/postprocess.h>
+#include <assimp/material.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
@@ -48,12 +48,15 @@ Vec3d ToVec3(const aiVector3D& v) { return {v.x, v.y, v.z}; }
 /// One file on its way into the assembly.
 class FileReader {
  public:
-  FileReader(const std::string& path, const ReadContext& context)
-      : path_(path), context_(context) {}
+  FileReader(const std::string& path, const ReadContext& context, ProgressCallback progress)
+      : path_(path), context_(context), progress_(std::move(progress)) {}
 
   void Read() {
+    Advance(0);
     Prepare();
+    Advance(0.1);
     Import();
+    Advance(0.6);
     DeclareUnit();
     DescribeMaterials();
     const size_t firstPart = context_.assembly.parts.size();
@@ -64,6 +67,9 @@ class FileReader {
   }
 
  private:
+  void Advance(double fraction) const {
+    if (!Report(progress_, fraction, "Reading scene")) throw Cancelled();
+  }
   void Prepare();
   void Import();
   void DeclareUnit();
@@ -71,6 +77,7 @@ class FileReader {
   void WalkNodes();
   void AddParts(const aiNode& node, const Matrix4& toWorld);
   int32_t MeshRow(unsigned index);
+  size_t MaterialOf(const aiMesh& mesh) const;
   void CheckAnnounced(const aiMesh& mesh) const;
   void ReadLightsAndCamera();
   void ReadLight(const aiLight& source);
@@ -80,6 +87,7 @@ class FileReader {
 
   std::string path_, extension_, bytes_;
   const ReadContext& context_;
+  ProgressCallback progress_;
   std::optional<GltfDocument> gltf_;
   ObjScan obj_;
   Assimp::Importer importer_;
@@ -105,7 +113,7 @@ void FileReader::Prepare() {
   if (extension_ == "stl") CheckStl(path_, bytes_);
   if (extension_ == "gltf" || extension_ == "glb") {
     gltf_.emplace(path_, bytes_);
-    bytes_ = gltf_->IndexedBytes();
+    bytes_ = gltf_->IndexedBytes(context_);
   }
   if (extension_ == "obj") {
     obj_ = ScanObj(path_, bytes_);
@@ -187,6 +195,7 @@ void FileReader::WalkNodes() {
     }
     nodes_.emplace(node->mName.C_Str(), toWorld);
     AddParts(*node, toWorld);
+    Advance(0.6 + 0.4 * double(meshRows_.size()) / std::max(1.0, double(scene_->mNumMeshes)));
     for (unsigned i = node->mNumChildren; i > 0; --i)
       stack.push_back({node->mChildren[i - 1], toWorld});
   }
@@ -216,7 +225,7 @@ int32_t FileReader::MeshRow(unsigned index) {
   if (known != meshRows_.end()) return known->second;
   const aiMesh& source = *scene_->mMeshes[index];
   CheckAnnounced(source);
-  const size_t material = std::min<size_t>(source.mMaterialIndex, materials_.size() - 1);
+  const size_t material = MaterialOf(source);
   int32_t& row = materialRows_[material];
   if (row < 0) row = AppendMaterial(materials_[material], path_, context_);
 
@@ -227,6 +236,16 @@ int32_t FileReader::MeshRow(unsigned index) {
   if (mesh.triangles.empty()) return meshRows_[index] = -1;
   context_.assembly.meshes.push_back(std::move(mesh));
   return meshRows_[index] = int32_t(context_.assembly.meshes.size()) - 1;
+}
+
+/// Row of the file's materials. The importer orders those of a glTF by their first use: their names
+/// tell.
+size_t FileReader::MaterialOf(const aiMesh& mesh) const {
+  const size_t last = materials_.size() - 1;
+  if (!gltf_) return std::min<size_t>(mesh.mMaterialIndex, last);
+  const int row =
+      GltfDocument::IndexFromName(scene_->mMaterials[mesh.mMaterialIndex]->GetName().C_Str());
+  return row < 0 ? last : std::min(size_t(row), last);
 }
 
 /// The importer leaves out glTF faces whose indices are out of range without a word.
@@ -319,9 +338,11 @@ SceneAssembly ReadScene(const std::vector<std::string>& files, const SceneReader
   TextureLibrary textures;
   const ReadContext context{options, assembly, textures};
   for (size_t i = 0; i < files.size(); ++i) {
-    if (!Report(progress, double(i) / double(files.size()), "Reading scene")) throw Cancelled();
+    const auto fileProgress = [&](double fraction, const char* stage) {
+      return Report(progress, (double(i) + fraction) / double(files.size()), stage);
+    };
     try {
-      FileReader(files[i], context).Read();
+      FileReader(files[i], context, fileProgress).Read();
     } catch (const nlohmann::json::exception& cause) {
       throw Error("The file \"" + files[i] + "\" breaks the glTF format (" + cause.what() +
                   "); export it again.");

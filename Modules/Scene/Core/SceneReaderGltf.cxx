@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <map>
 
 #include "Scene/Core/SceneReaderFiles.h"
 
@@ -78,6 +79,17 @@ std::string DecodePercent(const std::string& uri) {
   return text;
 }
 
+/// Bytes of one element of an accessor; 0 for a type that glTF does not know.
+int64_t ElementSize(const Json& accessor) {
+  static const std::map<std::string, int64_t> components{
+      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
+  static const std::map<int, int64_t> bytes{{5120, 1}, {5121, 1}, {5122, 2},
+                                            {5123, 2}, {5125, 4}, {kFloat, 4}};
+  const auto count = components.find(accessor.value("type", ""));
+  const auto width = bytes.find(accessor.value("componentType", 0));
+  return count == components.end() || width == bytes.end() ? 0 : count->second * width->second;
+}
+
 TextureWrap ToWrap(int code) {
   if (code == 33071) return TextureWrap::Clamp;
   return code == 33648 ? TextureWrap::Mirror : TextureWrap::Repeat;
@@ -142,10 +154,24 @@ void GltfDocument::CheckAccessors() const {
       if (primitive.contains("indices")) Row("accessors", primitive["indices"].get<int>());
     }
   }
+  for (const Json& accessor : Member(json_, "accessors")) {
+    if (!accessor.contains("bufferView")) continue;
+    const Json& view = Row("bufferViews", accessor["bufferView"].get<int>());
+    const int64_t size = ElementSize(accessor), count = accessor.at("count").get<int64_t>();
+    const int64_t stride = view.value("byteStride", size),
+                  begin = accessor.value("byteOffset", int64_t(0));
+    const int64_t length = view.at("byteLength").get<int64_t>();
+    const bool whole = size > 0 && count >= 0 && begin >= 0 && stride >= 0 && count <= length + 1;
+    if (!whole || (count > 0 && begin + (count - 1) * stride + size > length)) {
+      throw Broken("has an accessor that ends beyond its buffer view");
+    }
+  }
   for (const Json& view : Member(json_, "bufferViews")) {
     const Json& buffer = Row("buffers", view.at("buffer").get<int>());
-    const auto end = view.value("byteOffset", int64_t(0)) + view.at("byteLength").get<int64_t>();
-    if (end > buffer.at("byteLength").get<int64_t>()) {
+    const int64_t begin = view.value("byteOffset", int64_t(0)),
+                  length = view.at("byteLength").get<int64_t>();
+    const int64_t available = buffer.at("byteLength").get<int64_t>();
+    if (begin < 0 || length < 0 || begin > available || length > available - begin) {
       throw Broken("has a buffer view that ends beyond its buffer");
     }
   }
@@ -165,7 +191,7 @@ void GltfDocument::CheckNodes() const {
   count(Member(Row("scenes", json_.value("scene", 0)), "nodes"));
 }
 
-std::string GltfDocument::IndexedBytes() const {
+std::string GltfDocument::IndexedBytes(const ReadContext& context) const {
   Json indexed = json_;
   for (const char* table : {"materials", "meshes", "nodes"}) {
     if (!indexed.contains(table)) continue;
@@ -186,7 +212,11 @@ std::string GltfDocument::IndexedBytes() const {
         Json& attributes = primitive["attributes"];
         if (!attributes.contains(uvs)) continue;
         const Json& accessor = Row("accessors", attributes[uvs].get<int>());
-        if (accessor.value("componentType", 0) != kFloat) attributes.erase(uvs);
+        if (accessor.value("componentType", 0) == kFloat) continue;
+        attributes.erase(uvs);
+        context.Warn("Texture coordinates of \"" + path_ +
+                     "\" are stored as integers, which are not read; textures count as the mean of "
+                     "their image.");
       }
     }
   }

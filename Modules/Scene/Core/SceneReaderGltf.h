@@ -22,7 +22,7 @@ class GltfDocument {
   GltfDocument(const std::string& path, const std::string& bytes);
 
   /// The document with indices for names, as the importer gets it.
-  std::string IndexedBytes() const;
+  std::string IndexedBytes(const ReadContext& context) const;
   /// The index in such a name, -1 where it has none.
   static int IndexFromName(const std::string& name);
 

@@ -192,20 +192,28 @@ class FaceMaterials {
     }
     face.emittance = face.emittance * Mean(material_.emissive, triangle).colour;
 
-    const TextureValue cut = Mean(material_.opacityMap, triangle);
-    float opacity = material_.opacity * cut.alpha * Luminance(cut.colour);
+    float opacity = material_.opacity * Cut(triangle);
     if (material_.hasAlpha) opacity *= base.alpha;
     face.transparent = opacity < 0.5f || material_.transmits;
     return face;
   }
 
  private:
+  /// Mean over the triangle; over the image where the mesh has no uvs for it.
   TextureValue Mean(const TextureMap& map, const std::array<int32_t, 3>& triangle) const {
-    if (!map || map.uvSet < 0 || map.uvSet >= AI_MAX_NUMBER_OF_TEXTURECOORDS ||
-        !source_.HasTextureCoords(unsigned(map.uvSet))) {
-      return {};
-    }
+    if (!map) return {};
+    const bool hasUvs = map.uvSet >= 0 && map.uvSet < AI_MAX_NUMBER_OF_TEXTURECOORDS &&
+                        source_.HasTextureCoords(unsigned(map.uvSet));
+    if (!hasUvs) return context_.textures.ImageMean(map);
     return context_.textures.TriangleMean(map, CornerUvs(source_, triangle, map.uvSet));
+  }
+
+  /// Mean of the opacity texture: its alpha where it has one, else its luminance.
+  float Cut(const std::array<int32_t, 3>& triangle) const {
+    const TextureMap& map = material_.opacityMap;
+    if (!map) return 1;
+    const TextureValue mean = Mean(map, triangle);
+    return context_.textures.ImageMean(map).alpha < 1 ? mean.alpha : Luminance(mean.colour);
   }
 
   void ApplyVertexColours(const std::array<int32_t, 3>& triangle, Spectrum* reflectance) const {

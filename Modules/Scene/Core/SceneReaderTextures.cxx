@@ -139,6 +139,10 @@ int32_t TextureLibrary::NoteMissing(const std::string& key, const std::string& n
   return rows_[key] = -1;
 }
 
+const TextureValue& TextureLibrary::ImageMean(const TextureMap& map) const {
+  return images_[size_t(map.image)].back().texels[0];
+}
+
 TextureValue TextureLibrary::TriangleMean(const TextureMap& map,
                                           const std::array<Vec2f, 3>& uvs) const {
   const Pyramid& pyramid = images_[size_t(map.image)];
@@ -150,7 +154,7 @@ TextureValue TextureLibrary::TriangleMean(const TextureMap& map,
     const double u = uvs[i].x, v = uvs[i].y;
     corners[i] = {m[0] * u + m[1] * v + m[2], m[3] * u + m[4] * v + m[5]};
     if (!std::isfinite(corners[i].x) || !std::isfinite(corners[i].y)) {
-      return pyramid.back().texels[0];
+      return ImageMean(map);
     }
   }
 

@@ -54,6 +54,9 @@ class TextureLibrary {
   /// Mean over the triangle with these mesh uvs, by area.
   TextureValue TriangleMean(const TextureMap& map, const std::array<Vec2f, 3>& uvs) const;
 
+  /// Mean over the whole image.
+  const TextureValue& ImageMean(const TextureMap& map) const;
+
   /// Names of the images that could not be read, each once.
   const std::vector<std::string>& Missing() const { return missing_; }
 
