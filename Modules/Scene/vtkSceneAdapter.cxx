@@ -93,26 +93,28 @@ void AddScalars(vtkDataSetAttributes* data, const char* name, const std::vector<
 }
 }
 
-Scene SceneFromPolyData(vtkPolyData* input, double featureAngle)
+Scene SceneAsStoredInPolyData(vtkPolyData* input)
 {
   Scene scene;
   if (!input)
   {
     return scene;
   }
-
-  // The mesh.
   scene.mesh = TriangleMeshFromPolyData(IsAllTriangles(input) ? input : Triangulate(input).Get());
-  if (scene.mesh.normals.empty())
+  ReadSceneTables(input->GetFieldData(), &scene);
+  CoverIds(scene.mesh.materialId, Names::MaterialId(), &scene.materials);
+  CoverIds(scene.mesh.partId, Names::PartId(), &scene.parts);
+  return scene;
+}
+
+Scene SceneFromPolyData(vtkPolyData* input, double featureAngle)
+{
+  Scene scene = SceneAsStoredInPolyData(input);
+  if (scene.mesh.normals.empty() && !scene.mesh.positions.empty())
   {
     MeshTopology topology = ConnectFaces(scene.mesh);
     CompletePointNormals(featureAngle, &scene.mesh, &topology);
   }
-
-  // The tables.
-  ReadSceneTables(input->GetFieldData(), &scene);
-  CoverIds(scene.mesh.materialId, Names::MaterialId(), &scene.materials);
-  CoverIds(scene.mesh.partId, Names::PartId(), &scene.parts);
   return scene;
 }
 

@@ -18,6 +18,9 @@ namespace lambert
 /// Throws Error for arrays of the wrong length or number of components and for values out of range.
 LAMBERTSCENE_EXPORT Scene SceneFromPolyData(vtkPolyData* input, double featureAngle = 30);
 
+/// The same with no normals made: where `input` has none, the mesh has none.
+LAMBERTSCENE_EXPORT Scene SceneAsStoredInPolyData(vtkPolyData* input);
+
 /// Fills `output` with the mesh arrays and the tables of `scene`.
 LAMBERTSCENE_EXPORT void PolyDataFromScene(const Scene& scene, vtkPolyData* output);
 

@@ -161,7 +161,7 @@ std::vector<int64_t> TurnInvertedEmitters(const std::vector<CleanedMesh>& meshes
                                           const PartRanges& ranges, Scene* scene) {
   TriangleMesh& mesh = scene->mesh;
   std::vector<int64_t> turnedOfMaterial(scene->materials.size(), 0);
-  if (!AnythingEmits(mesh)) return turnedOfMaterial;
+  if (ranges.pieceBegin.back() < 2 || !AnythingEmits(mesh)) return turnedOfMaterial;
 
   // Faces that emit into a closed piece with nothing in it.
   const EmittingPieces pieces(meshes, ranges, *scene);

@@ -213,6 +213,8 @@ class InvertedLamp : public ::testing::Test {
     lamp_ = MakeCube();
     for (size_t face = 0; face < 12; ++face) FlipWinding(&lamp_, face);
     MakeEmit(&lamp_);
+    alone_ = lamp_;
+    Append(MakeCube(0.5f, {3, 0, 0}), &lamp_);
   }
   /// Faces whose light leaves the unit cube about the origin.
   static int64_t FacesEmittingOutward(const Scene& scene) {
@@ -223,7 +225,8 @@ class InvertedLamp : public ::testing::Test {
     }
     return count;
   }
-  TriangleMesh lamp_;
+  TriangleMesh lamp_;  ///< and a dark cube beside it, faces 12 to 23
+  TriangleMesh alone_;
   CleaningReport report_;
 };
 
@@ -245,6 +248,12 @@ TEST_F(InvertedLamp, IsTurnedWhereFacesAreNotRewound) {
   options.orient = false;
   for (size_t face = 0; face < 6; ++face) FlipWinding(&lamp_, face);
   EXPECT_EQ(FacesEmittingOutward(AssembleScene(MakeAssembly(lamp_), options, &report_)), 12);
+}
+
+TEST_F(InvertedLamp, IsAFurnaceWhereThereIsNothingElse) {
+  const Scene scene = AssembleScene(MakeAssembly(alone_), {}, &report_);
+  EXPECT_EQ(FacesEmittingOutward(scene), 0);
+  EXPECT_EQ(report_.invertedEmitters, 0);
 }
 
 TEST_F(InvertedLamp, WoundOutwardStays) {
@@ -274,10 +283,10 @@ TEST_F(InvertedLamp, IsARoomWithSomethingInside) {
 }
 
 TEST_F(InvertedLamp, IsARoomWhereOneWallEmits) {
-  MakeEmit(&lamp_, 0);
-  lamp_.emittance.assign(12, Spectrum(0.f));
-  lamp_.emittance[0] = lamp_.emittance[1] = Spectrum(1.f);
-  lamp_.faceFlags[0] = lamp_.faceFlags[1] = kEmitsFront;
+  for (size_t face = 2; face < 12; ++face) {
+    lamp_.emittance[face] = Spectrum(0.f);
+    lamp_.faceFlags[face] = 0;
+  }
   EXPECT_EQ(FacesEmittingOutward(AssembleScene(MakeAssembly(lamp_), {}, &report_)), 0);
 }
 
