@@ -2,11 +2,13 @@
  * @class vtkRadiosityImageWriter
  * @brief Writes a PNG picture of a solved scene, off-screen.
  *
- * Input: a vtkPolyData with `Radiosity` at its points, as a radiosity method or vtkRadiosityToneMapping leaves it; an
- * array `Colors` that is there already is shown as it stands. Light is drawn as vertex colours without any shading of
- * VTK's own; faces seen from behind are left out, since a lit back side has faces of its own. Four samples a pixel.
+ * Input: a vtkPolyData with `Radiosity` at its points, as a radiosity method or
+ * vtkRadiosityToneMapping leaves it; an array `Colors` that is there already is shown as it stands.
+ * Light is drawn as vertex colours without any shading of VTK's own; faces seen from behind are
+ * left out, since a lit back side has faces of its own. Four samples a pixel.
  *
- * Needs an X display; where none answers, an error says so and nothing is written (run under xvfb-run).
+ * Needs an X display; where none answers, an error says so and nothing is written (run under
+ * xvfb-run).
  */
 #ifndef vtkRadiosityImageWriter_h
 #define vtkRadiosityImageWriter_h
@@ -17,9 +19,8 @@
 class vtkPolyData;
 class vtkRenderer;
 
-class LAMBERTDISPLAY_EXPORT vtkRadiosityImageWriter : public vtkWriter
-{
-public:
+class LAMBERTDISPLAY_EXPORT vtkRadiosityImageWriter : public vtkWriter {
+ public:
   static vtkRadiosityImageWriter* New();
   vtkTypeMacro(vtkRadiosityImageWriter, vtkWriter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
@@ -58,23 +59,23 @@ public:
   /// True where an X display answers, so that VTK can draw.
   static bool IsDisplayAvailable();
 
-protected:
+ protected:
   vtkRadiosityImageWriter();
   ~vtkRadiosityImageWriter() override;
   int FillInputPortInformation(int port, vtkInformation* information) override;
   void WriteData() override;
 
-private:
+ private:
   vtkRadiosityImageWriter(const vtkRadiosityImageWriter&) = delete;
   void operator=(const vtkRadiosityImageWriter&) = delete;
   void PlaceCamera(vtkRenderer* renderer, vtkPolyData* colored);
   void Draw(vtkPolyData* colored);
 
   char* FileName = nullptr;
-  int Size[2] = { 960, 720 };
-  double Position[3] = { 0, 0, 1 };
-  double FocalPoint[3] = { 0, 0, 0 };
-  double ViewUp[3] = { 0, 1, 0 };
+  int Size[2] = {960, 720};
+  double Position[3] = {0, 0, 1};
+  double FocalPoint[3] = {0, 0, 0};
+  double ViewUp[3] = {0, 1, 0};
   double ViewAngle = 40;
   bool AutomaticCamera = true;
   double Exposure = 0;

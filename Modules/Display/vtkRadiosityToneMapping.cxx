@@ -14,66 +14,54 @@
 
 vtkStandardNewMacro(vtkRadiosityToneMapping);
 
-vtkRadiosityToneMapping::vtkRadiosityToneMapping()
-  : Options(new lambert::ToneMappingOptions)
-{
-}
+vtkRadiosityToneMapping::vtkRadiosityToneMapping() : Options(new lambert::ToneMappingOptions) {}
 
 vtkRadiosityToneMapping::~vtkRadiosityToneMapping() = default;
 
-#define lambertOptionMacro(name, member)                                                           \
-  void vtkRadiosityToneMapping::Set##name(double value)                                            \
-  {                                                                                                \
-    if (this->Options->member != value)                                                            \
-    {                                                                                              \
-      this->Options->member = value;                                                               \
-      this->Modified();                                                                            \
-    }                                                                                              \
-  }                                                                                                \
+#define lambertOptionMacro(name, member)                  \
+  void vtkRadiosityToneMapping::Set##name(double value) { \
+    if (this->Options->member != value) {                 \
+      this->Options->member = value;                      \
+      this->Modified();                                   \
+    }                                                     \
+  }                                                       \
   double vtkRadiosityToneMapping::Get##name() { return this->Options->member; }
 lambertOptionMacro(Key, key);
 lambertOptionMacro(Exposure, exposure);
 lambertOptionMacro(White, white);
 #undef lambertOptionMacro
 
-namespace
-{
-std::vector<lambert::Spectrum> PointLight(vtkPolyData* input)
-{
+namespace {
+std::vector<lambert::Spectrum> PointLight(vtkPolyData* input) {
   using Names = vtkRadiosityArrays;
   vtkPointData* pointData = input->GetPointData();
   vtkDataArray* array = pointData->GetArray(Names::Radiosity());
   array = array ? array : pointData->GetArray(Names::Irradiance());
-  if (!array || array->GetNumberOfComponents() != 3)
-  {
-    throw lambert::Error("The input has no point array Radiosity or Irradiance of three components; "
-                         "run a radiosity method first.");
+  if (!array || array->GetNumberOfComponents() != 3) {
+    throw lambert::Error(
+        "The input has no point array Radiosity or Irradiance of three components; "
+        "run a radiosity method first.");
   }
   std::vector<lambert::Spectrum> light(static_cast<size_t>(array->GetNumberOfTuples()));
-  for (size_t point = 0; point < light.size(); ++point)
-  {
-    for (int band = 0; band < 3; ++band)
-    {
+  for (size_t point = 0; point < light.size(); ++point) {
+    for (int band = 0; band < 3; ++band) {
       const vtkIdType id = static_cast<vtkIdType>(point);
       light[point][band] = static_cast<float>(array->GetComponent(id, band));
     }
   }
   return light;
 }
-}
+}  // namespace
 
-int vtkRadiosityToneMapping::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
+int vtkRadiosityToneMapping::RequestData(vtkInformation*, vtkInformationVector** inputs,
+                                         vtkInformationVector* outputs) {
   vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
   vtkPolyData* output = vtkPolyData::GetData(outputs);
   output->ShallowCopy(input);
-  if (input->GetNumberOfPoints() == 0)
-  {
+  if (input->GetNumberOfPoints() == 0) {
     return 1;
   }
-  try
-  {
+  try {
     // Adapt to the light that the scene reflects.
     const std::vector<lambert::Spectrum> light = PointLight(input);
     const lambert::TriangleMesh mesh = lambert::TriangleMeshFromPolyData(input);
@@ -84,23 +72,19 @@ int vtkRadiosityToneMapping::RequestData(
     colors->SetName(ColorsArrayName());
     colors->SetNumberOfComponents(3);
     colors->SetNumberOfTuples(input->GetNumberOfPoints());
-    for (size_t point = 0; point < light.size(); ++point)
-    {
-      colors->SetTypedTuple(
-        static_cast<vtkIdType>(point), toneMapping.ApplyToBytes(light[point]).data());
+    for (size_t point = 0; point < light.size(); ++point) {
+      colors->SetTypedTuple(static_cast<vtkIdType>(point),
+                            toneMapping.ApplyToBytes(light[point]).data());
     }
     output->GetPointData()->SetScalars(colors);
     return 1;
-  }
-  catch (const std::exception& error)
-  {
+  } catch (const std::exception& error) {
     vtkErrorMacro(<< error.what());
     return 0;
   }
 }
 
-void vtkRadiosityToneMapping::PrintSelf(ostream& os, vtkIndent indent)
-{
+void vtkRadiosityToneMapping::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Key: " << this->Options->key << "\n"
      << indent << "Exposure: " << this->Options->exposure << "\n"

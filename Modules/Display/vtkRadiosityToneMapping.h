@@ -2,9 +2,9 @@
  * @class vtkRadiosityToneMapping
  * @brief Vertex colours of a solved scene: the photographic operator of Reinhard et al. 2002.
  *
- * Input and output are a vtkPolyData of triangles. Reads the point array `Radiosity` (3 float, W/m2); where only
- * `Irradiance` is there, the light itself is coloured. The output adds the point array `Colors` (3 unsigned char,
- * sRGB) and makes it the active scalars. Nothing else changes.
+ * Input and output are a vtkPolyData of triangles. Reads the point array `Radiosity` (3 float,
+ * W/m2); where only `Irradiance` is there, the light itself is coloured. The output adds the point
+ * array `Colors` (3 unsigned char, sRGB) and makes it the active scalars. Nothing else changes.
  */
 #ifndef vtkRadiosityToneMapping_h
 #define vtkRadiosityToneMapping_h
@@ -12,16 +12,14 @@
 #include "lambertDisplayModule.h"
 #include "vtkPolyDataAlgorithm.h"
 
-#include <memory> // for the options
+#include <memory>  // for the options
 
-namespace lambert
-{
+namespace lambert {
 struct ToneMappingOptions;
 }
 
-class LAMBERTDISPLAY_EXPORT vtkRadiosityToneMapping : public vtkPolyDataAlgorithm
-{
-public:
+class LAMBERTDISPLAY_EXPORT vtkRadiosityToneMapping : public vtkPolyDataAlgorithm {
+ public:
   static vtkRadiosityToneMapping* New();
   vtkTypeMacro(vtkRadiosityToneMapping, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
@@ -34,7 +32,8 @@ public:
   void SetExposure(double exposure);
   double GetExposure();
   ///@}
-  ///@{ Keyed luminance that reaches full white; default 0: a hundredth of the lit area may burn out.
+  ///@{ Keyed luminance that reaches full white; default 0: a hundredth of the lit area may burn
+  ///out.
   void SetWhite(double white);
   double GetWhite();
   ///@}
@@ -42,12 +41,12 @@ public:
   /// Name of the array that is added.
   static const char* ColorsArrayName() { return "Colors"; }
 
-protected:
+ protected:
   vtkRadiosityToneMapping();
   ~vtkRadiosityToneMapping() override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-private:
+ private:
   vtkRadiosityToneMapping(const vtkRadiosityToneMapping&) = delete;
   void operator=(const vtkRadiosityToneMapping&) = delete;
   std::unique_ptr<lambert::ToneMappingOptions> Options;
