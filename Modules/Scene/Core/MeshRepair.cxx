@@ -19,24 +19,62 @@ void Keep(const std::vector<uint8_t>& keep, std::vector<T>* values) {
   values->resize(kept);
 }
 
-/// Points of a face by position, sorted; with the winding that the sorting undid.
-struct CornerSet {
-  std::array<int32_t, 3> position;
-  bool odd;  ///< the face runs against the ascending order
+/// A face as the file has it: a polygon's triangles, or a single triangle.
+struct Polygon {
+  size_t begin, end;              ///< faces
+  size_t cornerBegin, cornerEnd;  ///< its positions, sorted, each once, in the list of all
+  Vec3d vectorArea;               ///< of its outline, whichever way it was cut into triangles
+  double area = 0;
 };
 
-CornerSet SortedCorners(const std::vector<int32_t>& positionId, std::array<int32_t, 3> corners) {
-  for (int32_t& corner : corners) corner = positionId[size_t(corner)];
-  bool odd = false;
-  const auto order = [&](size_t i, size_t j) {
-    if (corners[i] <= corners[j]) return;
-    std::swap(corners[i], corners[j]);
-    odd = !odd;
-  };
-  order(0, 1);
-  order(1, 2);
-  order(0, 1);
-  return {corners, odd};
+struct Polygons {
+  std::vector<Polygon> list;
+  std::vector<int32_t> corners;
+};
+
+/// The triangles of one source cell, or each triangle by itself.
+Polygons CollectPolygons(const TriangleMesh& mesh, bool bySourceCell) {
+  const std::vector<int32_t> positionId = PositionIds(mesh);
+  Polygons polygons;
+  for (size_t begin = 0, end = 0; begin < mesh.triangles.size(); begin = end) {
+    end = begin + 1;
+    while (bySourceCell && end < mesh.triangles.size() &&
+           mesh.sourceCellId[end] == mesh.sourceCellId[begin]) {
+      ++end;
+    }
+    Polygon polygon{begin, end, polygons.corners.size(), 0, {}};
+    for (size_t face = begin; face < end; ++face) {
+      const Vec3d p(mesh.Corner(int64_t(face), 0));
+      const Vec3d area = Cross(Vec3d(mesh.Corner(int64_t(face), 1)) - p,
+                               Vec3d(mesh.Corner(int64_t(face), 2)) - p) *
+                         0.5;
+      polygon.vectorArea += area;
+      polygon.area += Length(area);
+      for (const int32_t point : mesh.triangles[face]) {
+        polygons.corners.push_back(int32_t(positionId[size_t(point)]));
+      }
+    }
+    const auto first = polygons.corners.begin() + int64_t(polygon.cornerBegin);
+    std::sort(first, polygons.corners.end());
+    polygons.corners.erase(std::unique(first, polygons.corners.end()), polygons.corners.end());
+    polygon.cornerEnd = polygons.corners.size();
+    polygons.list.push_back(polygon);
+  }
+  return polygons;
+}
+
+/// The same positions and, up to the winding, the same vector area: the same outline.
+bool SameOutline(const Polygons& polygons, const Polygon& a, const Polygon& b) {
+  const int32_t* corners = polygons.corners.data();
+  if (!std::equal(corners + a.cornerBegin, corners + a.cornerEnd, corners + b.cornerBegin,
+                  corners + b.cornerEnd)) {
+    return false;
+  }
+  // Both are sums over the same coordinates in double; far more than their rounding, far less than
+  // a corner.
+  const double tolerance = 1e-6 * std::max(a.area, b.area);
+  return Length(a.vectorArea - b.vectorArea) <= tolerance ||
+         Length(a.vectorArea + b.vectorArea) <= tolerance;
 }
 
 bool Emits(const TriangleMesh& mesh, size_t face) {
@@ -47,6 +85,61 @@ bool Emits(const TriangleMesh& mesh, size_t face) {
 uint8_t EmissionSeenFrom(const TriangleMesh& mesh, size_t face, bool sameWinding) {
   const uint8_t bits = mesh.faceFlags[face] & (kEmitsFront | kEmitsBack);
   return sameWinding ? bits : uint8_t((bits >> 1) | ((bits & 1) << 1));
+}
+
+/// For each polygon the first with the same outline.
+std::vector<int32_t> FirstCopies(const Polygons& polygons) {
+  return FirstEqual(
+      int64_t(polygons.list.size()),
+      [&](int64_t i) {
+        const Polygon& polygon = polygons.list[size_t(i)];
+        uint64_t hash = 0;
+        for (size_t k = polygon.cornerBegin; k < polygon.cornerEnd; ++k) {
+          hash = HashBits(hash, uint64_t(polygons.corners[k]));
+        }
+        return hash;
+      },
+      [&](int64_t i, int64_t j) {
+        return SameOutline(polygons, polygons.list[size_t(i)], polygons.list[size_t(j)]);
+      });
+}
+
+RepeatCounts RemoveRepeatedPolygons(const Polygons& polygons, TriangleMesh* mesh) {
+  // The first copy that emits stays, else the first.
+  const std::vector<Polygon>& list = polygons.list;
+  const std::vector<int32_t> first = FirstCopies(polygons);
+  std::vector<int32_t> staying(first);
+  for (size_t i = 0; i < list.size(); ++i) {
+    int32_t& stays = staying[size_t(first[i])];
+    if (!Emits(*mesh, list[size_t(stays)].begin) && Emits(*mesh, list[i].begin)) stays = int32_t(i);
+  }
+
+  // What the other copies emit must not be lost.
+  RepeatCounts counts;
+  std::vector<uint8_t> keep(mesh->triangles.size(), 1), otherSideKept(list.size(), 0);
+  for (size_t i = 0; i < list.size(); ++i) {
+    const size_t stays = size_t(staying[size_t(first[i])]);
+    const Polygon &copy = list[i], &kept = list[stays];
+    if (i == stays) continue;
+    if (Emits(*mesh, copy.begin)) {
+      const bool sameWinding = Dot(copy.vectorArea, kept.vectorArea) > 0;
+      const uint8_t emission = EmissionSeenFrom(*mesh, copy.begin, sameWinding);
+      const bool otherSide = (emission & ~mesh->faceFlags[kept.begin]) != 0;
+      if (mesh->emittance[copy.begin] == mesh->emittance[kept.begin]) {
+        for (size_t face = kept.begin; face < kept.end; ++face) mesh->faceFlags[face] |= emission;
+      } else if (otherSide && !otherSideKept[stays]) {
+        otherSideKept[stays] = 1;
+        continue;
+      }
+    }
+    for (size_t face = copy.begin; face < copy.end; ++face) {
+      keep[face] = 0;
+      ++counts.removed;
+      counts.otherMaterial += mesh->materialId[face] != mesh->materialId[kept.begin];
+    }
+  }
+  if (counts.removed > 0) KeepFaces(keep, mesh);
+  return counts;
 }
 
 }  // namespace
@@ -125,50 +218,16 @@ int64_t RemoveZeroAreaFaces(TriangleMesh* mesh) {
 }
 
 RepeatCounts RemoveRepeatedFaces(TriangleMesh* mesh) {
-  const size_t faces = mesh->triangles.size();
-  const std::vector<int32_t> positionId = PositionIds(*mesh);
-  std::vector<CornerSet> corners(faces);
-  for (size_t i = 0; i < faces; ++i) corners[i] = SortedCorners(positionId, mesh->triangles[i]);
-  const std::vector<int32_t> first = FirstEqual(
-      int64_t(faces),
-      [&](int64_t i) {
-        const auto& p = corners[size_t(i)].position;
-        return HashBits(uint64_t(p[0]) << 32 | uint32_t(p[1]), uint64_t(p[2]));
-      },
-      [&](int64_t i, int64_t j) {
-        return corners[size_t(i)].position == corners[size_t(j)].position;
-      });
-
-  // The first copy that emits stays, else the first.
-  std::vector<int32_t> staying(first);
-  for (size_t face = 0; face < faces; ++face) {
-    int32_t& stays = staying[size_t(first[face])];
-    if (!Emits(*mesh, size_t(stays)) && Emits(*mesh, face)) stays = int32_t(face);
-  }
-
-  // What the other copies emit must not be lost.
+  // Whole polygons first: two copies of one may be cut into triangles along other diagonals.
   RepeatCounts counts;
-  std::vector<uint8_t> keep(faces, 1);
-  std::vector<uint8_t> otherSideKept(faces, 0);
-  for (size_t face = 0; face < faces; ++face) {
-    const size_t stays = size_t(staying[size_t(first[face])]);
-    if (face == stays) continue;
-    if (Emits(*mesh, face)) {
-      const uint8_t emission =
-          EmissionSeenFrom(*mesh, face, corners[face].odd == corners[stays].odd);
-      const bool otherSide = (emission & ~mesh->faceFlags[stays]) != 0;
-      if (mesh->emittance[face] == mesh->emittance[stays]) {
-        mesh->faceFlags[stays] |= emission;
-      } else if (otherSide && !otherSideKept[stays]) {
-        otherSideKept[stays] = 1;
-        continue;
-      }
-    }
-    keep[face] = 0;
-    ++counts.removed;
-    counts.otherMaterial += mesh->materialId[face] != mesh->materialId[stays];
+  Polygons polygons = CollectPolygons(*mesh, true);
+  if (polygons.list.size() < mesh->triangles.size()) {
+    counts = RemoveRepeatedPolygons(polygons, mesh);
+    polygons = CollectPolygons(*mesh, false);
   }
-  if (counts.removed > 0) KeepFaces(keep, mesh);
+  const RepeatCounts single = RemoveRepeatedPolygons(polygons, mesh);
+  counts.removed += single.removed;
+  counts.otherMaterial += single.otherMaterial;
   return counts;
 }
 

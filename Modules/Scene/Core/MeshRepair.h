@@ -28,9 +28,10 @@ struct RepeatCounts {
   int64_t removed = 0;
   int64_t otherMaterial = 0;  ///< of these, with another material than the copy that stays
 };
-/// Drops triangles whose corners have the positions of another's, in either winding. The first copy
-/// stays, or the first that emits; where copies of one emittance emit to both sides, it emits to
-/// both. Two copies that emit differently to either side both stay.
+/// Drops polygons of the file (runs of one sourceCellId) and then triangles that have the positions
+/// and the outline of another, in either winding. The first copy stays, or the first that emits;
+/// where copies of one emittance emit to both sides, it emits to both. Two copies that emit
+/// differently to either side both stay.
 RepeatCounts RemoveRepeatedFaces(TriangleMesh* mesh);
 
 /// Keeps the faces with keep[face] != 0, in their order.

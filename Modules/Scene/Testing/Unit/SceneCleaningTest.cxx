@@ -104,6 +104,23 @@ TEST(SceneCleaning, DropsRepeatedTriangles) {
   EXPECT_EQ(report.nonManifoldEdges, 18);
 }
 
+TEST(SceneCleaning, DropsRepeatedPolygonsCutAlongOtherDiagonals) {
+  const std::vector<Vec3f> corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0.1f}, {0, 1, 0}};
+  TriangleMesh mesh = MakeMesh(corners, {{0, 1, 2}, {0, 2, 3}});
+  Append(MakeMesh(corners, {{1, 0, 3}, {1, 3, 2}}), &mesh);
+  mesh.sourceCellId = {0, 0, 1, 1};
+  CleaningReport report;
+  Scene scene = AssembleScene(MakeAssembly(mesh), {}, &report);
+  EXPECT_EQ(report.repeatedTriangles, 2);
+  EXPECT_EQ(scene.mesh.sourceCellId, std::vector<int64_t>({0, 0}));
+
+  // Four triangles that are no polygons close a flat tetrahedron: they stay.
+  mesh.sourceCellId = {0, 1, 2, 3};
+  scene = AssembleScene(MakeAssembly(mesh), {}, &report);
+  EXPECT_EQ(report.repeatedTriangles, 0);
+  EXPECT_EQ(report.openEdges, 0);
+}
+
 TEST(SceneCleaning, EmittersKeepTheirSide) {
   for (const bool down : {false, true}) {
     for (const bool darkCopyFirst : {false, true}) {
