@@ -85,25 +85,25 @@ ClusterFrame ComputeClusterFrame(const TriangleMesh& mesh, const ClusterNode& no
   if (node.faceCount <= 0) return {{}, {Vec3f{1, 0, 0}, Vec3f{0, 1, 0}, Vec3f{0, 0, 1}}, {}};
   const auto principal = PrincipalAxes(mesh, node);
   const Eigen::Vector3d spread = principal.eigenvalues();
-  const Vec3d leastSpread = Normalize(ToVec3d(principal.eigenvectors().col(0)));
-
-  // The side that the cluster faces, where its normals do not cancel.
   const Vec3d vectorArea(node.vectorArea);
+  Vec3d leastSpread = Normalize(ToVec3d(principal.eigenvectors().col(0)));
+  if (Dot(leastSpread, vectorArea) < 0) leastSpread = -leastSpread;
+
+  // The way that the cluster faces, where its normals do not cancel.
   constexpr double kCancelled = 1e-3;  // of the area: below it the sum of normals says nothing
-  const bool faces = Length(vectorArea) > kCancelled * node.area;
-  const Vec3d facing = faces ? Normalize(vectorArea) : leastSpread;
+  const bool cancels = !(Length(vectorArea) > kCancelled * node.area);
+  const Vec3d facing = cancels ? leastSpread : Normalize(vectorArea);
 
   // Nearly planar, or folded so that the best plane stands across the normals (over 60 degrees):
   // thesis 6.2.1.
   constexpr double kPlanar = 1e-2;  // spread across the plane, relative to the smaller one within
   const bool planar = spread[0] <= kPlanar * spread[1];
-  if (planar || std::abs(Dot(facing, leastSpread)) < 0.5) {
+  if (planar || Dot(facing, leastSpread) < 0.5) {
     return FrameAlong(RectangleAxes(mesh, node, facing), mesh, node);
   }
 
-  const Vec3d n = Dot(leastSpread, facing) < 0 ? -leastSpread : leastSpread;
   const Vec3d u = Normalize(ToVec3d(principal.eigenvectors().col(2)));
-  return FrameAlong({u, Cross(n, u), n}, mesh, node);
+  return FrameAlong({u, Cross(leastSpread, u), leastSpread}, mesh, node);
 }
 
 }  // namespace lambert
