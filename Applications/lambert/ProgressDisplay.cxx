@@ -22,8 +22,8 @@ ProgressDisplay::ProgressDisplay(ProgressStyle style)
 ProgressDisplay::~ProgressDisplay() { Finish(); }
 
 void ProgressDisplay::Begin(const std::string& stage) {
-  stage_ = stage;
-  if (mode_ == Mode::Lines) Line(stage);
+  EndStage();
+  stage_ = lasting_ = stage;
   if (mode_ == Mode::Bar) {
     sinceDrawn_.Restart();
     std::fprintf(stderr, "%s%s", kClearLine, stage.c_str());
@@ -60,6 +60,11 @@ void ProgressDisplay::Say(const std::string& sentence) {
   if (mode_ == Mode::Silent) return;
   Finish();
   Line(sentence);
+}
+
+void ProgressDisplay::EndStage() {
+  if (mode_ == Mode::Lines && !lasting_.empty()) Line(lasting_ + " done");
+  lasting_.clear();
 }
 
 void ProgressDisplay::Finish() {

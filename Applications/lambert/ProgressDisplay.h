@@ -16,8 +16,10 @@ class ProgressDisplay {
   explicit ProgressDisplay(ProgressStyle style);
   ~ProgressDisplay();
 
-  /// Names the stage that begins.
+  /// Names the stage that begins, and ends the one before. A log hears of a stage when it is done,
+  /// so that a failure is one sentence.
   void Begin(const std::string& stage);
+  void EndStage();
   /// How far the stage is. Safe to call from any thread.
   void Update(double fraction, const char* detail);
   void EndIteration(const IterationRecord& record);
@@ -30,7 +32,8 @@ class ProgressDisplay {
   void Line(const std::string& text);
 
   enum class Mode { Bar, Lines, Silent } mode_;
-  std::string stage_;
+  std::string stage_;    ///< what the bar says
+  std::string lasting_;  ///< the stage that has begun and not ended
   Timer sinceDrawn_;
   bool drawn_ = false;
   std::mutex mutex_;

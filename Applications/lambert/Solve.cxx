@@ -141,6 +141,7 @@ int Solve(const SolveArguments& arguments) {
     });
   }
   if (!arguments.report.empty()) WriteReport(arguments.report, run);
+  display.EndStage();
   display.Finish();
   PrintSummary(arguments, run);
   return 0;

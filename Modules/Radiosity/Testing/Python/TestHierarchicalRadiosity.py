@@ -1,0 +1,135 @@
+"""The Python surface of the method, its three ports, and its events."""
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+import lambert
+
+
+def box_with_lamp():
+    """A unit cube seen from within whose ceiling holds a lamp; faces in no order of any tree."""
+    points, cells, emittance = vtkPoints(), vtkCellArray(), []
+
+    def quad(a, b, c, d, exitance=0.0):
+        ids = [points.InsertNextPoint(p) for p in (a, b, c, d)]
+        for triangle in ((0, 1, 2), (0, 2, 3)):
+            cells.InsertNextCell(3, [ids[i] for i in triangle])
+            emittance.append([exitance] * 3)
+
+    quad((0, 0, 0), (0, 0, 1), (1, 0, 1), (1, 0, 0))
+    quad((.4, .99, .4), (.6, .99, .4), (.6, .99, .6), (.4, .99, .6), 100.0)
+    quad((0, 1, 0), (1, 1, 0), (1, 1, 1), (0, 1, 1))
+    quad((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))
+    quad((0, 0, 1), (0, 1, 1), (1, 1, 1), (1, 0, 1))
+    quad((0, 0, 0), (0, 1, 0), (0, 1, 1), (0, 0, 1))
+    quad((1, 0, 0), (1, 0, 1), (1, 1, 1), (1, 1, 0))
+    data = vtkPolyData()
+    data.SetPoints(points)
+    data.SetPolys(cells)
+    array = numpy_to_vtk(np.array(emittance, np.float32), deep=1)
+    array.SetName("Emittance")
+    data.GetCellData().AddArray(array)
+    flags = numpy_to_vtk(np.array([1 if e[0] else 0 for e in emittance], np.uint8), deep=1)
+    flags.SetName("FaceFlags")
+    data.GetCellData().AddArray(flags)
+    return data
+
+
+def array(data, name):
+    return vtk_to_numpy(data.GetPointData().GetArray(name))
+
+
+def light_at_points(method):
+    """Rows of position and irradiance, sorted: points made for an earlier picture keep their earlier numbers."""
+    output = method.GetOutput()
+    rows = np.hstack([vtk_to_numpy(output.GetPoints().GetData()), array(output, "Irradiance")])
+    return rows[np.lexsort(rows.T)]
+
+
+# Options, defaults, and the base class that carries the contract.
+method = lambert.vtkHierarchicalRadiosity()
+assert isinstance(method, lambert.vtkRadiosityAlgorithm)
+for name, default, other in (("Error", 0.05, 0.2), ("TimeLimit", 0.0, 60.0), ("Iterations", 0, 7), ("NumberOfThreads", 0, 2)):
+    assert getattr(method, "Get" + name)() == default, name
+    getattr(method, "Set" + name)(other)
+    assert getattr(method, "Get" + name)() == other, name
+assert method.GetStoppedBy() == ""
+assert method.GetNumberOfInputPorts() == 2 and method.GetNumberOfOutputPorts() == 3
+
+# Ports: refined mesh, history, input with light.
+scene = box_with_lamp()
+method = lambert.vtkHierarchicalRadiosity()
+method.SetInputData(scene)
+method.SetError(0.3)
+method.Update()
+refined, history, lit = (method.GetOutputDataObject(port) for port in range(3))
+assert method.GetStoppedBy() in ("error", "floor")
+assert refined.GetNumberOfCells() > scene.GetNumberOfCells()
+irradiance = array(refined, "Irradiance")
+assert np.isfinite(irradiance).all() and irradiance.min() >= 0 and irradiance.max() > 0
+assert history.GetNumberOfRows() > 0
+assert [history.GetColumnName(i) for i in range(history.GetNumberOfColumns())] == [
+    "iteration", "seconds", "threshold", "elements", "links", "rays", "change"]
+assert lit.GetNumberOfPoints() == scene.GetNumberOfPoints() and lit.GetNumberOfCells() == scene.GetNumberOfCells()
+assert np.array_equal(vtk_to_numpy(lit.GetPolys().GetConnectivityArray()), vtk_to_numpy(scene.GetPolys().GetConnectivityArray()))
+assert array(lit, "Irradiance").shape == (scene.GetNumberOfPoints(), 3) and array(lit, "Irradiance").max() > 0
+assert not scene.GetPointData().HasArray("Irradiance")  # The input itself stays as it was.
+
+# Every refined triangle lies in the plane of the input triangle it names, so the numbers are the input's.
+face_of = vtk_to_numpy(refined.GetCellData().GetArray("InputFaceId"))
+xyz = vtk_to_numpy(scene.GetPoints().GetData())[vtk_to_numpy(scene.GetPolys().GetConnectivityArray()).reshape(-1, 3)]
+small = vtk_to_numpy(refined.GetPoints().GetData())[vtk_to_numpy(refined.GetPolys().GetConnectivityArray()).reshape(-1, 3)]
+normal = np.cross(xyz[:, 1] - xyz[:, 0], xyz[:, 2] - xyz[:, 0])
+normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+distance = np.einsum("fcx,fx->fc", small - xyz[face_of][:, :1], normal[face_of])
+assert np.abs(distance).max() < 1e-5  # Float positions in a unit cube.
+assert set(face_of) == set(range(scene.GetNumberOfCells()))
+
+# The tree of vtkFaceClustering may come in from outside; the mesh then is in its order.
+clusters = lambert.vtkFaceClustering()
+clusters.SetInputData(scene)
+outside = lambert.vtkHierarchicalRadiosity()
+outside.SetInputConnection(0, clusters.GetOutputPort(0))
+outside.SetInputConnection(1, clusters.GetOutputPort(1))
+outside.SetError(0.3)
+outside.Update()
+assert np.allclose(array(outside.GetOutput(), "Irradiance").max(), irradiance.max(), rtol=0.05)  # Same light, noise aside.
+
+# Progress, and a displayable solution after every iteration for who observes.
+seen, steps = [], []
+watched = lambert.vtkHierarchicalRadiosity()
+watched.SetInputData(scene)
+watched.SetIterations(3)
+watched.AddObserver("ProgressEvent", lambda caller, _: steps.append(caller.GetProgress()))
+watched.AddObserver("UpdateDataEvent", lambda caller, _: seen.append(array(caller.GetOutputDataObject(0), "Radiosity").max()))
+watched.Update()
+assert len(seen) == watched.GetOutputDataObject(1).GetNumberOfRows() == 3 and min(seen) > 0
+assert steps and min(steps) >= 0 and max(steps) <= 1
+unwatched = lambert.vtkHierarchicalRadiosity()
+unwatched.SetInputData(scene)
+unwatched.SetIterations(3)
+unwatched.Update()
+assert np.array_equal(light_at_points(unwatched), light_at_points(watched))  # Watching changes no light.
+
+# An abort after the first iteration keeps that iteration.
+aborted = lambert.vtkHierarchicalRadiosity()
+aborted.SetInputData(scene)
+aborted.SetError(0.01)
+aborted.AddObserver("UpdateDataEvent", lambda caller, _: caller.AbortExecuteOn())
+aborted.Update()
+assert aborted.GetStoppedBy() == "interrupt" and aborted.GetOutputDataObject(1).GetNumberOfRows() == 1
+assert aborted.GetOutput().GetNumberOfCells() >= scene.GetNumberOfCells()
+
+# What is no triangle is an error.
+errors = []
+quads = vtkPolyData()
+quads.SetPoints(scene.GetPoints())
+cells = vtkCellArray()
+cells.InsertNextCell(4, [0, 1, 2, 3])
+quads.SetPolys(cells)
+broken = lambert.vtkHierarchicalRadiosity()
+broken.AddObserver("ErrorEvent", lambda *_: errors.append(1))
+broken.SetInputData(quads)
+broken.Update()
+assert errors

@@ -1,0 +1,72 @@
+/**
+ * @class vtkHierarchicalRadiosity
+ * @brief Hierarchical radiosity on face clusters (thesis 4.3 to 4.5).
+ *
+ * Input port 0: vtkPolyData of triangles with the arrays of vtkRadiosityArrays that it has;
+ * defaults for the others. Input port 1, optional: the cluster tree of vtkFaceClustering, whose
+ * port 0 is then the mesh it belongs to; without it the filter clusters by itself. Output port 0:
+ * the refined mesh with `Irradiance` and `Radiosity` (W/m2) at its points; `InputFaceId` counts the
+ * triangles of input port 0.
+ * Output port 1: the history, a row an iteration (iteration, seconds, threshold, elements, links,
+ * rays, change). Output port 2: the input as it came, plus `Irradiance` and `Radiosity` at its
+ * points (their brighter side).
+ *
+ * While it runs: ProgressEvent; AbortExecute ends the run and keeps its last whole iteration. After
+ * every iteration an observer of vtkCommand::UpdateDataEvent finds a displayable solution on output
+ * port 0; without an observer none is made.
+ */
+#ifndef vtkHierarchicalRadiosity_h
+#define vtkHierarchicalRadiosity_h
+
+#include "lambertRadiosityModule.h"
+#include "vtkRadiosityAlgorithm.h"
+
+#include <memory>  // for the options
+#include <string>  // for StoppedBy
+
+namespace lambert {
+struct HierarchicalRadiosityOptions;
+}
+
+class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgorithm {
+ public:
+  static vtkHierarchicalRadiosity* New();
+  vtkTypeMacro(vtkHierarchicalRadiosity, vtkRadiosityAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{ Wanted relative RMS error of irradiance, (0, 1]; default 0.05.
+  void SetError(double error);
+  double GetError();
+  ///@}
+  ///@{ Seconds of solving after which the run ends at the next iteration border; default 0: no
+  ///limit.
+  void SetTimeLimit(double seconds);
+  double GetTimeLimit();
+  ///@}
+  ///@{ Iterations after which the run ends; default 0: as many as the error asks for.
+  void SetIterations(int iterations);
+  int GetIterations();
+  ///@}
+  ///@{ Threads of the process; default 0: all processors.
+  vtkSetClampMacro(NumberOfThreads, int, 0, 1024);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  /// Why the last run ended: error, time, iterations, interrupt, memory, floor; empty before a run.
+  const char* GetStoppedBy();
+
+ protected:
+  vtkHierarchicalRadiosity();
+  ~vtkHierarchicalRadiosity() override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+ private:
+  vtkHierarchicalRadiosity(const vtkHierarchicalRadiosity&) = delete;
+  void operator=(const vtkHierarchicalRadiosity&) = delete;
+
+  std::unique_ptr<lambert::HierarchicalRadiosityOptions> Options;
+  int NumberOfThreads = 0;
+  std::string StoppedBy;
+};
+
+#endif

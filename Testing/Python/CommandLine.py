@@ -1,0 +1,44 @@
+"""What the tests of the command line share: running it, and reading what it wrote."""
+import json
+import os
+import subprocess
+
+LAMBERT = os.path.join(os.environ["LAMBERT_BIN_DIR"], "lambert")
+DATA = os.environ["LAMBERT_DATA_DIR"]
+CORNELL_BOX = os.path.join(DATA, "CornellBox", "CornellBox.obj")
+
+
+def temporary(name):
+    """A path for a file of this test that does not exist yet."""
+    folder = os.path.join(os.environ["LAMBERT_TEMPORARY_DIR"], "CommandLine")
+    os.makedirs(folder, exist_ok=True)
+    path = os.path.join(folder, name)
+    if os.path.exists(path):
+        os.remove(path)
+    return path
+
+
+def run(*arguments, environment=None):
+    return subprocess.run([LAMBERT, *map(str, arguments)], capture_output=True, text=True, env=environment)
+
+
+def solve(*arguments):
+    """Runs `lambert solve` with a report, insists on success, and returns the report."""
+    report = temporary("report.json")
+    done = run("solve", *arguments, "--report", report, "--progress", "none")
+    assert done.returncode == 0, done.stderr
+    assert done.stderr == "", done.stderr
+    with open(report) as file:
+        return json.load(file)
+
+
+def fails(exit_code, *arguments, says=(), environment=None):
+    """Insists on an exit code and on one sentence on stderr that holds every word of `says`."""
+    done = run(*arguments, environment=environment)
+    assert done.returncode == exit_code, (arguments, done.returncode, done.stderr)
+    lines = done.stderr.strip().splitlines()
+    assert lines, arguments
+    if exit_code == 1:
+        assert len(lines) == 1 and lines[0].startswith("lambert: ") and lines[0].endswith("."), lines
+    for word in says:
+        assert word in done.stderr, (word, done.stderr)

@@ -1,0 +1,62 @@
+"""Every failure has its exit code and one clear sentence, and leaves no output behind."""
+import os
+
+from CommandLine import CORNELL_BOX, DATA, fails, run, temporary
+
+out = temporary("never.vtp")
+bad = os.path.join(DATA, "Bad")
+
+# Wrong usage: 2.
+fails(2)
+fails(2, "solve", CORNELL_BOX)
+fails(2, "dance")
+fails(2, "solve", CORNELL_BOX, "-o", "scene.stl", says=[".vtp", ".ply"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--error", "0")
+fails(2, "solve", CORNELL_BOX, "-o", out, "--error", "two")
+fails(2, "solve", CORNELL_BOX, "-o", out, "--time", "-1")
+fails(2, "solve", CORNELL_BOX, "-o", out, "--iterations", "0")
+fails(2, "solve", CORNELL_BOX, "-o", out, "--unit", "parsec")
+fails(2, "solve", CORNELL_BOX, "-o", out, "--sky", "1", "1", "-1")
+fails(2, "solve", CORNELL_BOX, "-o", out, "--size", "100", says=["--size"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--camera", "1,2,3", says=["--camera"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--probe", "points.csv", says=["--probe-output"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--no-such-option")
+
+# Scenes that cannot be read or lit: 1.
+fails(1, "solve", "missing.obj", "-o", out, says=["missing.obj"])
+for name in ("empty.obj", "garbage.obj", "truncated.glb", "nan.obj", "infinite.obj", "zeroarea.obj"):
+    fails(1, "solve", os.path.join(bad, name), "-o", out, "--progress", "none")
+fails(1, "solve", os.path.join(bad, "nolight.obj"), "-o", out, "--progress", "none", says=["no light"])
+fails(1, "solve", CORNELL_BOX, "-o", out, "--progress", "none", "--set", "NoSuchMaterial:two-sided",
+      says=["NoSuchMaterial"])
+fails(1, "info", "missing.obj", says=["missing.obj"])
+
+# Outputs that cannot be written are refused before the scene is even read.
+for option in ("-o", "--report", "--image"):
+    outputs = {"-o": out, option: "/no/such/folder/file.vtp"}
+    fails(1, "solve", "missing.obj", *sum(([k, v] for k, v in outputs.items()), []), says=["/no/such/folder"])
+folder = temporary("folder.vtp")
+os.makedirs(folder, exist_ok=True)
+fails(1, "solve", CORNELL_BOX, "-o", folder, says=["is a folder"])
+os.rmdir(folder)
+
+# Probe points are checked, with the line, before solving.
+probes, readings = temporary("probes.csv"), temporary("readings.csv")
+for text, says in (("a,b\n", ["header"]),
+                   ("x,y,z,nx,ny,nz\n0,0,0,0,1,0\n0,0,0,0,0,0\n", ["Line 3", "zero normal"]),
+                   ("x,y,z,nx,ny,nz\n0,0,nan,0,1,0\n", ["Line 2", "nan"]),
+                   ("x,y,z,nx,ny,nz\n0,0,0,0,1\n", ["Line 2", "5 fields"])):
+    with open(probes, "w") as file:
+        file.write(text)
+    fails(1, "solve", CORNELL_BOX, "-o", out, "--probe", probes, "--probe-output", readings, says=says)
+
+# A picture without a display: a sentence, no abort.
+without = {key: value for key, value in os.environ.items() if key != "DISPLAY"}
+fails(1, "solve", CORNELL_BOX, "-o", out, "--image", temporary("never.png"), says=["xvfb-run"], environment=without)
+assert not os.path.exists(out) and not os.path.exists(readings)
+
+# Help and version are no failures.
+assert run("--version").stdout.startswith("lambert ")
+for arguments in (["--help"], ["solve", "--help"], ["info", "--help"]):
+    done = run(*arguments)
+    assert done.returncode == 0 and "--help" in done.stdout

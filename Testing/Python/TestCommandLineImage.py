@@ -1,0 +1,28 @@
+"""`lambert solve --image`: a picture of the asked-for size, exposed, neither black nor blown."""
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
+
+import lambert
+from CommandLine import CORNELL_BOX, solve, temporary
+
+if not lambert.vtkRadiosityImageWriter.IsDisplayAvailable():
+    raise SystemExit(0)  # What happens then is asserted in TestCommandLineErrors.py.
+
+
+def picture(*arguments):
+    path = temporary("box.png")
+    solve(CORNELL_BOX, "-o", temporary("box-image.vtp"), "--error", "0.3", "--iterations", "2", "--image", path, "--size",
+          "120x90", *arguments)
+    reader = vtkPNGReader()
+    reader.SetFileName(path)
+    reader.Update()
+    assert reader.GetOutput().GetDimensions() == (120, 90, 1)
+    return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).astype(float)
+
+
+plain, brighter = picture(), picture("--exposure", "1")
+assert 30 < plain.mean() < 200, plain.mean()
+assert np.percentile(plain, 98) > 100  # Something is lit
+assert np.mean(plain.min(axis=1) > 250) < 0.2  # and most is not blown.
+assert brighter.mean() > plain.mean() + 5

@@ -1,0 +1,113 @@
+"""`lambert solve`: files, report and readings agree with each other."""
+import csv
+import signal
+import subprocess
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOPLY import vtkPLYReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+from CommandLine import CORNELL_BOX, LAMBERT, solve, temporary
+
+# One run with everything but a picture.
+out, probes, readings = temporary("box.vtp"), temporary("box-probes.csv"), temporary("box-readings.csv")
+report = solve(CORNELL_BOX, "-o", out, "--error", "0.3", "--iterations", "2")
+assert report["stopped_by"] in ("iterations", "error", "floor") and report["iterations"] <= 2
+assert len(report["history"]) == report["iterations"]
+assert report["elements"]["total"] > 0 and report["links"]["total"] > 0 and report["rays"] > 0
+assert report["peak_memory_bytes"] > 1e6 and report["seconds"]["total"] >= report["seconds"]["solve"]
+for key in ("load", "cluster", "solve", "reconstruct", "write"):
+    assert report["seconds"][key] >= 0
+
+# What is emitted is absorbed or escapes, per band. The balance is kept by the exchange of links, whose rows sum to one
+# up to the visibility sampling; 5 % is far above that and far below a lost bounce.
+whole = solve(CORNELL_BOX, "-o", out, "--error", "0.2")
+assert whole["stopped_by"] in ("error", "floor")
+energy = whole["energy_w"]
+for emitted, absorbed, escaped in zip(energy["emitted"], energy["absorbed"], energy["escaped"]):
+    assert emitted > 0 and abs(absorbed + escaped - emitted) < 0.05 * emitted, energy
+
+# A coarser run is cheaper; the files below are of two iterations.
+report = solve(CORNELL_BOX, "-o", out, "--error", "0.3", "--iterations", "2")
+assert report["links"]["total"] < whole["links"]["total"]
+
+# The file holds what the report says, and the contract's arrays.
+reader = vtkXMLPolyDataReader()
+reader.SetFileName(out)
+reader.Update()
+mesh = reader.GetOutput()
+assert mesh.GetNumberOfCells() == report["output"]["triangles"]
+points, cells = mesh.GetPointData(), mesh.GetCellData()
+irradiance = vtk_to_numpy(points.GetArray("Irradiance"))
+radiosity = vtk_to_numpy(points.GetArray("Radiosity"))
+assert irradiance.shape == (mesh.GetNumberOfPoints(), 3) and np.isfinite(irradiance).all()
+assert irradiance.min() >= 0 and irradiance.max() > 0
+for name in ("Reflectance", "Emittance", "InputFaceId", "Side", "MaterialId", "PartId", "SourceCellId"):
+    assert cells.HasArray(name), name
+assert mesh.GetPointData().GetNormals() is not None
+
+# The same iterations give the same bits, whatever the threads.
+for threads in (1, 3):
+    again = temporary("box-again.vtp")
+    solve(CORNELL_BOX, "-o", again, "--error", "0.3", "--iterations", "2", "--threads", threads)
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(again)
+    reader.Update()
+    assert np.array_equal(vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("Irradiance")), irradiance)
+
+# PLY: the brighter side of every face, irradiance and colours; both sides where asked for.
+counts = []
+for more in ([], ["--both-sides"]):
+    ply = temporary("box.ply")
+    solve(CORNELL_BOX, "-o", ply, "--error", "0.3", "--iterations", "2", *more)
+    reader = vtkPLYReader()
+    reader.SetFileName(ply)
+    reader.Update()
+    lit = reader.GetOutput()
+    counts.append(lit.GetNumberOfCells())
+    colors = vtk_to_numpy(lit.GetPointData().GetArray("RGB"))
+    assert lit.GetPointData().GetNormals() is not None and colors.max() > 100
+    with open(ply, "rb") as file:
+        header = file.read(600).split(b"end_header")[0]
+    assert b"property float irradiance_r" in header
+assert counts[0] <= counts[1] == report["output"]["triangles"]
+
+# A probe on a surface reads what the file delivers there: corner, middle and normal of a triangle.
+triangles = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+xyz = vtk_to_numpy(mesh.GetPoints().GetData())
+corners = xyz[triangles]
+normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+largest = np.linalg.norm(normals, axis=1).argsort()[-20:]
+with open(probes, "w") as file:
+    file.write("x,y,z,nx,ny,nz\n")
+    for face in largest:
+        file.write(",".join(repr(float(v)) for v in (*corners[face].mean(axis=0), *normals[face])) + "\n")
+solve(CORNELL_BOX, "-o", out, "--error", "0.3", "--iterations", "2", "--probe", probes, "--probe-output", readings)
+with open(readings) as file:
+    rows = list(csv.DictReader(file))
+assert list(rows[0]) == "x,y,z,nx,ny,nz,r,g,b,kind".split(",") and len(rows) == len(largest)
+for row, face in zip(rows, largest):
+    assert row["kind"] == "surface", row
+    expected = irradiance[triangles[face]].mean(axis=0)
+    measured = np.array([float(row[band]) for band in "rgb"])
+    # Barycentrics in float of a point rounded to float: 1e-3 of the brightest is far above either.
+    assert np.allclose(measured, expected, rtol=1e-3, atol=1e-3 * irradiance.max()), (measured, expected)
+
+# Ctrl-C keeps what is solved.
+kept = temporary("kept.vtp")
+report_name = temporary("kept.json")
+process = subprocess.Popen([LAMBERT, "solve", CORNELL_BOX, "-o", kept, "--error", "0.001", "--progress", "plain",
+                            "--report", report_name], stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+for line in process.stderr:
+    if "iteration 1" in line:
+        process.send_signal(signal.SIGINT)
+        break
+_, rest = process.communicate(timeout=300)
+assert process.returncode == 0, rest
+with open(report_name) as file:
+    assert '"stopped_by": "interrupt"' in file.read()
+reader = vtkXMLPolyDataReader()
+reader.SetFileName(kept)
+reader.Update()
+assert vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("Irradiance")).max() > 0
