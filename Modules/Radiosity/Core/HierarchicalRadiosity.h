@@ -14,13 +14,15 @@
 namespace lambert {
 
 struct HierarchicalRadiosityOptions {
-  double error = 0.05;     ///< wanted relative RMS error of irradiance, (0, 1]
-  double timeLimit = 0;    ///< seconds of solving after which the run ends at the next iteration border; 0: none
-  int iterations = 0;      ///< iterations after which the run ends; 0: as many as the error asks for
+  double error = 0.05;  ///< wanted relative RMS error of irradiance, (0, 1]
+  double timeLimit =
+      0;  ///< seconds of solving after which the run ends at the next iteration border; 0: none
+  int iterations = 0;  ///< iterations after which the run ends; 0: as many as the error asks for
   LeafMeshOptions leafMesh;
 };
 
-/// The solver. Construct, Run, then Solution; an observer may ask for a solution between iterations.
+/// The solver. Construct, Run, then Solution; an observer may ask for a solution between
+/// iterations.
 class HierarchicalRadiosity {
  public:
   /// `scene` is in the order that ClusterFaces left it in; both are kept by reference.
@@ -31,8 +33,9 @@ class HierarchicalRadiosity {
   /// Called at the end of every iteration, when Solution() is up to date; false ends the run.
   using IterationObserver = std::function<bool(const IterationRecord&)>;
 
-  /// Gather, push-pull, refine with a falling threshold until a stop (thesis figure 4.10). A cancelled run keeps the
-  /// state of its last whole iteration; `Statistics().stoppedBy` says why it ended.
+  /// Gather, push-pull, refine with a falling threshold until a stop (thesis figure 4.10). A
+  /// cancelled run keeps the state of its last whole iteration; `Statistics().stoppedBy` says why
+  /// it ended.
   void Run(const ProgressCallback& progress = {}, const IterationObserver& observer = {});
 
   /// The displayable solution as it stands: reconstruction of 4.5.5 on the refined mesh.

@@ -15,8 +15,20 @@ using OpenMesh::FaceHandle;
 using OpenMesh::HalfedgeHandle;
 using OpenMesh::VertexHandle;
 
-// Parameters of an edge nearer than this are one point: some thousand roundings of a double.
-constexpr double kSameParameter = 1e-12;
+// A patch is split while it is longer than this fraction of its face, a million roundings of a
+// double.
+constexpr double kSmallestPatch = 1e-10;
+// Parameters of an edge nearer than this, some roundings of a double, are one point.
+constexpr double kSameParameter = 1e-15;
+
+double Extent(const std::vector<PatchBorderVertex>& border) {
+  double extent = 0;
+  for (const PatchBorderVertex& vertex : border) {
+    const Vec2d offset = vertex.position - border.front().position;
+    extent = std::max({extent, std::abs(offset.x), std::abs(offset.y)});
+  }
+  return extent;
+}
 
 }  // namespace
 
@@ -39,6 +51,10 @@ std::array<int32_t, 2> LeafMesh::Implementation::Split(int32_t id) {
 
   // Choose the line and put its ends into the border, and with it into the neighbours' (4.4.2).
   BorderOf(patch, &scratch);
+  if (Extent(scratch.polygon) < kSmallestPatch * scratch.faceLength) {
+    throw Error("A patch of face " + std::to_string(patch.face) +
+                " is too small to be split; stop at larger patches.");
+  }
   const auto cut = CutPatch(scratch.polygon, options.snapTolerance);
   const int32_t from = CutVertex(patch, scratch, cut[0]);
   const int32_t to = CutVertex(patch, scratch, cut[1]);
@@ -48,11 +64,6 @@ std::array<int32_t, 2> LeafMesh::Implementation::Split(int32_t id) {
   for (const HalfedgeHandle halfedge : halfedges.fh_range(FaceHandle(patch.meshFace))) {
     if (halfedges.to_vertex_handle(halfedge).idx() == from) intoFrom = halfedge;
     if (halfedges.from_vertex_handle(halfedge).idx() == to) outOfTo = halfedge;
-  }
-  if (from == to || halfedges.next_halfedge_handle(intoFrom) == outOfTo ||
-      halfedges.next_halfedge_handle(halfedges.prev_halfedge_handle(outOfTo)) == intoFrom) {
-    throw Error("A patch of face " + std::to_string(patch.face) +
-                " is too small to be split; stop at larger patches.");
   }
   const HalfedgeHandle line = halfedges.insert_edge(intoFrom, outOfTo);
 
@@ -184,6 +195,7 @@ void LeafMesh::Implementation::BorderOf(const Patch& patch, Border* border) cons
   const auto flat =
       FlattenTriangle(Vec3d(mesh.Corner(patch.face, 0)), Vec3d(mesh.Corner(patch.face, 1)),
                       Vec3d(mesh.Corner(patch.face, 2)));
+  border->faceLength = std::max({flat[0].x, flat[1].x, flat[2].x});
   const HalfedgeHandle start = halfedges.halfedge_handle(FaceHandle(patch.meshFace));
   HalfedgeHandle halfedge = start;
   int32_t lineBefore = lineOfEdge[size_t(halfedges.prev_halfedge_handle(start).idx() / 2)];

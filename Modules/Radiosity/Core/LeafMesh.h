@@ -20,8 +20,9 @@ struct LeafMeshOptions {
 /// A point of the output mesh: a place within an input triangle of one side of one surface.
 struct LeafVertex {
   Vec3f position;
-  std::array<int32_t, 3> points;  ///< input points that it interpolates
-  Vec3f weights;                  ///< of those points; sum 1
+  std::array<int32_t, 3>
+      points;     ///< input points that it interpolates; on an edge the first comes again as third
+  Vec3f weights;  ///< of those points; sum 1
 };
 
 /// A triangle of the output mesh. Vertex numbers below the mesh's point count are input points;
@@ -34,8 +35,9 @@ struct LeafTriangle {
   int32_t patch = -1;  ///< leaf patch it lies in; -1 where the face has none
 };
 
-/// Patches on a half-edge mesh that holds refined triangles and their neighbours only. Not safe to
-/// change from several threads.
+/// Patches on a half-edge mesh that holds split triangles only; every other triangle finds the
+/// points on its edges by the positions of their ends when it is triangulated. Patches may be read
+/// from several threads while none splits.
 class LeafMesh {
  public:
   LeafMesh(const TriangleMesh& mesh, const LeafMeshOptions& options = {});
@@ -44,8 +46,9 @@ class LeafMesh {
   /// The patch that is the whole of `face` seen from `side`; made at the first call.
   int32_t FacePatch(int32_t face, Side side);
   /// Splits a leaf patch across the longer side of its minimum-area rectangle, at its middle,
-  /// snapped to a vertex where one is near (4.4.2); returns the two halves, which become leaves in
-  /// its place.
+  /// snapped to vertices where they are near (4.4.2); returns the two halves, which become leaves
+  /// in its place. Both have area, also in slivers and in triangles without any. Throws Error where
+  /// the patch is split already, and where it is a 1e-12th of its face across.
   std::array<int32_t, 2> Split(int32_t patch);
 
   /// Patches so far, split ones included; they are numbered from 0 and keep their numbers.

@@ -48,6 +48,7 @@ struct LeafMesh::Implementation {
     std::vector<PatchBorderVertex> polygon;
     std::vector<int32_t> vertices;   // Mesh vertices.
     std::vector<int32_t> halfedges;  // Each begins at the vertex of its index.
+    double faceLength = 0;           // Longest edge of the face, in the units of the polygon.
   };
 
   Implementation(const TriangleMesh& mesh_, const LeafMeshOptions& options_)

@@ -434,6 +434,25 @@ TEST(LeafMesh, DegenerateFacesAreSplitWithoutHarm) {
   }
 }
 
+TEST(LeafMesh, SplittingEndsInAnErrorBelowTheRoundingOfDoubles) {
+  for (uint32_t seed = 0; seed < 20; ++seed) {
+    const TriangleMesh mesh = seed % 2 ? Slivers(1) : Grid(1, false, seed);
+    LeafMesh leaves(mesh);
+    std::mt19937 random(seed);
+    int32_t patch = leaves.FacePatch(0, kFront);
+    int splits = 0;
+    const auto splitForever = [&] {
+      for (; splits < 1000; ++splits) patch = leaves.Split(patch)[random() % 2];
+    };
+    EXPECT_THROW(splitForever(), Error);
+    // Each dimension is halved some 33 times before 1e-10; a cut takes between 0.35 and 0.65.
+    EXPECT_GT(splits, 30);
+    EXPECT_LT(splits, 200);
+    for (const LeafVertex& vertex : leaves.Vertices()) EXPECT_TRUE(IsFinite(vertex.position));
+    EXPECT_FALSE(Output(mesh, &leaves).triangles.empty());
+  }
+}
+
 TEST(LeafMesh, SameTrianglesForAnyNumberOfThreads) {
   const TriangleMesh mesh = Grid(8, true, 21);
   std::vector<std::vector<LeafTriangle>> results;

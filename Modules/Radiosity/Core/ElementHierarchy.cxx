@@ -1,0 +1,363 @@
+#include "Radiosity/Core/ElementHierarchy.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "Common/Core/Parallel.h"
+#include "Common/Core/Random.h"
+#include "Radiosity/Core/PolygonIrradiance.h"
+
+namespace lambert {
+
+namespace {
+
+/// Elements are not split below this part of their surface's diagonal, nor of the scene's.
+constexpr float kFloorOfSurface = 1e-3f;
+constexpr float kFloorOfScene = 1e-6f;
+
+bool ReflectsNothing(const TriangleMesh& mesh, const ClusterNode& node) {
+  for (int32_t face = node.firstFace; face < node.firstFace + node.faceCount; ++face) {
+    if (!mesh.reflectance[size_t(face)].IsBlack()) return false;
+  }
+  return true;
+}
+
+bool EmitsSomewhere(const TriangleMesh& mesh, const ClusterNode& node) {
+  for (int32_t face = node.firstFace; face < node.firstFace + node.faceCount; ++face) {
+    const bool emits = mesh.Emits(face, kFront) || mesh.Emits(face, kBack);
+    if (emits && !mesh.emittance[size_t(face)].IsBlack()) return true;
+  }
+  return false;
+}
+
+Vec3f Oriented(const Vec3f& v, Side side) { return side == kFront ? v : -v; }
+
+/// Stratified places on a convex polygon: one low-discrepancy set, shifted by the element's seed.
+void SamplePolygon(const Vec3f* corners, int count, const Vec3f& normal, uint64_t seed,
+                   std::array<SurfaceSample, kSamplesPerElement>* samples) {
+  float areas[kMaximumPolygonCorners];
+  float total = 0;
+  for (int i = 2; i < count; ++i) {
+    areas[i] = Length(Cross(corners[i - 1] - corners[0], corners[i] - corners[0]));
+    total += areas[i];
+  }
+  Random random(seed);
+  const float shiftU = random.Uniform(), shiftV = random.Uniform();
+  for (int k = 0; k < kSamplesPerElement; ++k) {
+    float u = (float(k) + shiftU) / kSamplesPerElement;
+    const float v = RadicalInverse(uint32_t(k), shiftV);
+    int triangle = 2;
+    float left = u * total;
+    while (triangle + 1 < count && left >= areas[triangle]) left -= areas[triangle++];
+    u = areas[triangle] > 0 ? std::min(1.f, left / areas[triangle]) : 0.5f;
+    const Vec2f b = UniformTriangle(u, v);
+    (*samples)[size_t(k)].position = corners[0] + (corners[triangle - 1] - corners[0]) * b.x +
+                                     (corners[triangle] - corners[0]) * b.y;
+    (*samples)[size_t(k)].normal = normal;
+  }
+}
+
+/// A sphere and box about few points: the frame of a planar polygon.
+ClusterFrame PolygonFrame(const Vec3f* corners, int count, const Vec3f& normal) {
+  // The longest side gives the first axis.
+  Vec3f longest;
+  for (int i = 0; i < count; ++i) {
+    const Vec3f edge = corners[(i + 1) % count] - corners[i];
+    if (LengthSquared(edge) > LengthSquared(longest)) longest = edge;
+  }
+  ClusterFrame frame;
+  frame.axes[2] = normal;
+  frame.axes[0] = Normalize(longest - normal * Dot(longest, normal));
+  if (frame.axes[0] == Vec3f()) CoordinateSystem(normal, &frame.axes[0], &frame.axes[1]);
+  frame.axes[1] = Cross(normal, frame.axes[0]);
+  Vec2f low{1e30f, 1e30f}, high{-1e30f, -1e30f};
+  for (int i = 0; i < count; ++i) {
+    const Vec3f p = corners[i] - corners[0];
+    const Vec2f q{Dot(p, frame.axes[0]), Dot(p, frame.axes[1])};
+    low = {std::min(low.x, q.x), std::min(low.y, q.y)};
+    high = {std::max(high.x, q.x), std::max(high.y, q.y)};
+  }
+  frame.center =
+      corners[0] + frame.axes[0] * ((low.x + high.x) / 2) + frame.axes[1] * ((low.y + high.y) / 2);
+  frame.halfExtent = {(high.x - low.x) / 2, (high.y - low.y) / 2, 0};
+  return frame;
+}
+
+}  // namespace
+
+ElementHierarchy::ElementHierarchy(const Scene& scene, const ClusterTree& tree,
+                                   const std::vector<uint8_t>& litSides,
+                                   const LeafMeshOptions& options)
+    : scene_(scene), tree_(tree), litSides_(litSides), leafMesh_(scene.mesh, options) {
+  // Running sums of area, to pick faces of a cluster by area.
+  const TriangleMesh& mesh = scene.mesh;
+  diagonal_ = mesh.Bounds().IsEmpty() ? 0 : mesh.Bounds().Diagonal();
+  areaBefore_.resize(mesh.triangles.size() + 1, 0);
+  for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
+    areaBefore_[size_t(face) + 1] = areaBefore_[size_t(face)] + mesh.Area(face);
+  }
+
+  // Emitters that do not reflect are clustered apart (4.5.1).
+  std::vector<int32_t> reflecting, black;
+  for (size_t surface = 0; surface < tree.surfaceRoots.size(); ++surface) {
+    if (!litSides[surface]) continue;
+    const ClusterNode& node = tree.nodes[size_t(tree.surfaceRoots[surface])];
+    const bool blackEmitter = EmitsSomewhere(mesh, node) && ReflectsNothing(mesh, node);
+    (blackEmitter ? black : reflecting).push_back(int32_t(surface));
+  }
+  root_ = BuildVolumes(reflecting);
+  emitterRoot_ = BuildVolumes(black);
+
+  // Lights without geometry stand beside the hierarchy.
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    Element light;
+    light.kind = ElementKind::Light;
+    light.item = int32_t(i);
+    light.canSplit = false;
+    light.frame.center = scene.lights[i].position;
+    lights_.push_back(Append(light));
+  }
+}
+
+int32_t ElementHierarchy::Append(const Element& element) {
+  const int32_t index = Size();
+  elements_.push_back(element);
+  if (size_t(element.level) >= levels_.size()) levels_.resize(size_t(element.level) + 1);
+  levels_[size_t(element.level)].push_back(index);
+  return index;
+}
+
+// Volume elements, top down, so that children come after their parents; leaves are single surfaces
+// whose modelled sides are their children.
+int32_t ElementHierarchy::BuildVolumes(const std::vector<int32_t>& surfaces) {
+  std::vector<Box3f> boxes;
+  for (const int32_t surface : surfaces) {
+    boxes.push_back(tree_.nodes[size_t(tree_.surfaceRoots[size_t(surface)])].bounds);
+  }
+  const std::vector<VolumeNode> volumes = ClusterVolumes(boxes);
+  if (volumes.empty()) return -1;
+
+  Element top;
+  top.item = 0;
+  const int32_t root = Append(top);
+  for (int32_t element = root; element < Size(); ++element) {
+    if (elements_[size_t(element)].IsVolume()) LinkVolume(element, volumes, surfaces);
+  }
+  FinishVolumes(root);
+  return root;
+}
+
+void ElementHierarchy::LinkVolume(int32_t element, const std::vector<VolumeNode>& volumes,
+                                  const std::vector<int32_t>& surfaces) {
+  const int32_t level = elements_[size_t(element)].level + 1;
+  const VolumeNode& volume = volumes[size_t(elements_[size_t(element)].item)];
+  const Box3f& bounds = volume.bounds;
+  elements_[size_t(element)].frame.center = bounds.Center();
+  elements_[size_t(element)].frame.axes = {Vec3f(1, 0, 0), Vec3f(0, 1, 0), Vec3f(0, 0, 1)};
+  elements_[size_t(element)].frame.halfExtent = bounds.Extent() * 0.5f;
+  elements_[size_t(element)].radius = bounds.Diagonal() / 2;
+  elements_[size_t(element)].child = Size();
+  elements_[size_t(element)].canSplit = false;
+
+  if (volume.child >= 0) {
+    elements_[size_t(element)].childCount = 2;
+    for (int32_t i = 0; i < 2; ++i) {
+      Element child;
+      child.parent = element;
+      child.level = level;
+      child.item = volume.child + i;
+      Append(child);
+    }
+    return;
+  }
+  const int32_t surface = surfaces[size_t(volume.item)];
+  for (const Side side : {kFront, kBack}) {
+    if (!(litSides_[size_t(surface)] & (1 << side))) continue;
+    Element root = MakeFaceElement(tree_.surfaceRoots[size_t(surface)], side, surface);
+    root.parent = element;
+    root.level = level;
+    surfaceSides_.push_back(Append(root));
+    ++elements_[size_t(element)].childCount;
+  }
+}
+
+// Area and samples of the volumes, from the surfaces up; samples are taken from the children by
+// area.
+void ElementHierarchy::FinishVolumes(int32_t root) {
+  for (int32_t index = Size() - 1; index >= root; --index) {
+    Element& volume = elements_[size_t(index)];
+    if (!volume.IsVolume()) continue;
+    float firstArea = elements_[size_t(volume.child)].area;
+    volume.area = firstArea;
+    volume.reflectance = elements_[size_t(volume.child)].reflectance * firstArea;
+    if (volume.childCount == 2) {
+      const Element& second = elements_[size_t(volume.child) + 1];
+      volume.area += second.area;
+      volume.reflectance += second.reflectance * second.area;
+    }
+    if (volume.area > 0) volume.reflectance *= 1 / volume.area;
+    for (int k = 0; k < kSamplesPerElement; ++k) {
+      const bool first =
+          volume.childCount < 2 || (float(k) + 0.5f) / kSamplesPerElement * volume.area < firstArea;
+      volume.samples[size_t(k)] =
+          elements_[size_t(volume.child) + (first ? 0 : 1)].samples[size_t(k)];
+    }
+  }
+}
+
+Element ElementHierarchy::MakeFaceElement(int32_t nodeIndex, Side side, int32_t surface) const {
+  const TriangleMesh& mesh = scene_.mesh;
+  const ClusterNode& node = tree_.nodes[size_t(nodeIndex)];
+  Element element;
+  element.kind = ElementKind::Face;
+  element.item = nodeIndex;
+  element.surface = surface;
+  element.side = side;
+  element.area = node.area;
+  element.vectorArea = Oriented(node.vectorArea, side);
+  element.axis = Normalize(element.vectorArea);
+
+  // Material, and the cone of normals; faces too small to matter do not widen it.
+  Spectrum reflectance, emittance;
+  float cosine = 1, total = 0;
+  const float negligible = 1e-4f * node.area / float(node.faceCount);
+  for (int32_t face = node.firstFace; face < node.firstFace + node.faceCount; ++face) {
+    const Vec3f area = mesh.VectorArea(face);
+    const float size = Length(area);
+    total += size;
+    reflectance += mesh.reflectance[size_t(face)] * size;
+    if (mesh.Emits(face, side)) emittance += mesh.emittance[size_t(face)] * size;
+    if (size > negligible) {
+      cosine = std::min(cosine, Dot(Oriented(area, side), element.axis) / size);
+    }
+  }
+  if (total > 0) {
+    element.reflectance = reflectance / total;
+    element.emittance = emittance / total;
+  }
+  const bool hasAxis = Length(node.vectorArea) > 1e-3f * node.area;
+  element.coneAngle = hasAxis ? std::acos(std::max(-1.f, std::min(1.f, cosine))) : float(kPi);
+
+  // A single triangle is a polygon; a cluster is sampled face by face.
+  const uint64_t seed = HashBits(uint64_t(nodeIndex), side);
+  if (node.faceCount == 1) {
+    element.polygonCount = 3;
+    element.coneAngle = 0;
+    Vec3f corners[3];
+    PolygonCorners(element, corners);
+    element.frame = PolygonFrame(corners, 3, element.axis);
+    SamplePolygon(corners, 3, element.axis, seed, &element.samples);
+  } else {
+    element.frame = ComputeClusterFrame(mesh, node);
+    Random random(seed);
+    const double first = areaBefore_[size_t(node.firstFace)];
+    const double last = areaBefore_[size_t(node.firstFace + node.faceCount)];
+    for (int k = 0; k < kSamplesPerElement; ++k) {
+      const double target =
+          first + (last - first) * (k + random.UniformDouble()) / kSamplesPerElement;
+      const auto begin = areaBefore_.begin() + node.firstFace;
+      const int64_t face = std::min<int64_t>(
+          node.firstFace + node.faceCount - 1,
+          std::upper_bound(begin, begin + node.faceCount, target) - areaBefore_.begin() - 1);
+      const Vec2f b = UniformTriangle(random.Uniform(), random.Uniform());
+      const Vec3f& p = mesh.Corner(face, 0);
+      element.samples[size_t(k)] = {
+          p + (mesh.Corner(face, 1) - p) * b.x + (mesh.Corner(face, 2) - p) * b.y,
+          Oriented(mesh.FrontNormal(face), side)};
+    }
+  }
+  element.radius = Length(element.frame.halfExtent);
+  return element;
+}
+
+Element ElementHierarchy::MakePatchElement(int32_t patch, const Element& parent) const {
+  Element element;
+  element.kind = ElementKind::Patch;
+  element.item = patch;
+  element.surface = parent.surface;
+  element.side = parent.side;
+  element.axis = parent.axis;
+  element.coneAngle = 0;
+  element.level = parent.level + 1;
+  element.reflectance = parent.reflectance;
+  element.emittance = parent.emittance;
+  element.polygonCount = uint8_t(leafMesh_.Corners(patch).size());
+  Vec3f corners[kMaximumPolygonCorners];
+  const int count = PolygonCorners(element, corners);
+  Vec3f area;
+  for (int i = 2; i < count; ++i) {
+    area += Cross(corners[i - 1] - corners[0], corners[i] - corners[0]) * 0.5f;
+  }
+  element.area = Length(area);
+  element.vectorArea = element.axis * element.area;
+  element.frame = PolygonFrame(corners, count, element.axis);
+  element.radius = Length(element.frame.halfExtent);
+  SamplePolygon(corners, count, element.axis,
+                HashBits(uint64_t(patch), 0x70617463u + uint64_t(element.side)), &element.samples);
+  return element;
+}
+
+int ElementHierarchy::PolygonCorners(const Element& element, Vec3f* corners) const {
+  int count = 0;
+  if (element.kind == ElementKind::Patch) {
+    for (const Vec3f& p : leafMesh_.Corners(element.item)) corners[count++] = p;
+  } else {
+    const int32_t face = tree_.nodes[size_t(element.item)].firstFace;
+    for (; count < 3; ++count) corners[count] = scene_.mesh.Corner(face, count);
+  }
+  if (element.side == kBack) std::reverse(corners, corners + count);
+  return count;
+}
+
+bool ElementHierarchy::BelowFloor(const Element& element) const {
+  const Box3f& surface = tree_.nodes[size_t(tree_.surfaceRoots[size_t(element.surface)])].bounds;
+  return element.radius <
+             std::max(kFloorOfSurface * surface.Diagonal(), kFloorOfScene * diagonal_) ||
+         element.polygonCount + 2 > kMaximumPolygonCorners;
+}
+
+void ElementHierarchy::Split(const std::vector<int32_t>& parents) {
+  // Where the children come from: the cluster tree, or a cut through the polygon.
+  struct Request {
+    int32_t parent;
+    std::array<int32_t, 2> items;
+    ElementKind kind;
+  };
+  std::vector<Request> requests;
+  for (const int32_t index : parents) {
+    Element& parent = elements_[size_t(index)];
+    if (!parent.IsLeaf() || !parent.canSplit) continue;
+    if (!parent.IsPolygon()) {
+      const int32_t child = tree_.nodes[size_t(parent.item)].child;
+      requests.push_back({index, {child, child + 1}, ElementKind::Face});
+    } else if (BelowFloor(parent)) {
+      parent.canSplit = false;
+    } else {
+      const int32_t patch =
+          parent.kind == ElementKind::Patch
+              ? parent.item
+              : leafMesh_.FacePatch(tree_.nodes[size_t(parent.item)].firstFace, parent.side);
+      requests.push_back({index, leafMesh_.Split(patch), ElementKind::Patch});
+    }
+  }
+
+  // Make them in parallel, number them in order.
+  std::vector<Element> children(requests.size() * 2);
+  ParallelForEach(int64_t(children.size()), 8, [&](int64_t i) {
+    const Request& request = requests[size_t(i / 2)];
+    const Element& parent = elements_[size_t(request.parent)];
+    const int32_t item = request.items[size_t(i % 2)];
+    Element& child = children[size_t(i)];
+    child = request.kind == ElementKind::Face ? MakeFaceElement(item, parent.side, parent.surface)
+                                              : MakePatchElement(item, parent);
+    child.parent = request.parent;
+    child.level = parent.level + 1;
+  });
+  for (size_t i = 0; i < children.size(); ++i) {
+    const int32_t index = Append(children[i]);
+    Element& parent = elements_[size_t(requests[i / 2].parent)];
+    if (parent.childCount++ == 0) parent.child = index;
+  }
+}
+
+}  // namespace lambert

@@ -1,0 +1,195 @@
+#include "Radiosity/Core/HierarchicalRadiosity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "Common/Core/Timer.h"
+#include "Radiosity/Core/EnergyBalance.h"
+#include "Radiosity/Core/LightExchange.h"
+#include "Radiosity/Core/LightReconstruction.h"
+#include "Radiosity/Core/LinkRefinement.h"
+#include "Radiosity/Core/LitSides.h"
+#include "Radiosity/Core/RefinedMesh.h"
+#include "Visibility/Core/RayScene.h"
+
+namespace lambert {
+
+namespace {
+
+/// Thresholds are fractions of the power that surfaces receive: where refinement begins, by what
+/// factor it falls.
+constexpr double kFirstThreshold = 1e-2;
+constexpr double kThresholdFactor = 0.25;
+/// Bounces are followed until the radiosity changes by less than this in a sweep.
+constexpr double kSweepTolerance = 1e-3, kLastSweepTolerance = 1e-5;
+constexpr int kMaximumSweeps = 200;
+
+/// Threshold, as a fraction of the power, that gives a wanted relative error; measured
+/// (Documentation/Stages).
+double FinalThreshold(double error) { return 2e-6 * std::pow(error / 0.05, 1.5); }
+
+/// Power of all sources, W, largest band: a first guess of what surfaces receive. Skies and suns
+/// count over the bounds.
+double SourcePower(const Scene& scene) {
+  Spectrum power;
+  const TriangleMesh& mesh = scene.mesh;
+  for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
+    const int sides = int(mesh.Emits(face, kFront)) + int(mesh.Emits(face, kBack));
+    if (sides) power += mesh.emittance[size_t(face)] * (float(sides) * mesh.Area(face));
+  }
+  const float half = mesh.Bounds().IsEmpty() ? 0 : mesh.Bounds().SurfaceArea() / 2;
+  for (const Light& light : scene.lights) {
+    switch (light.type) {
+      case LightType::Point:
+        power += light.intensity * float(4 * kPi);
+        break;
+      case LightType::Spot:
+        power += light.intensity * float(2 * kPi * (1 - std::cos(light.outerConeAngle)));
+        break;
+      case LightType::Directional:
+        power += light.intensity * (half / 2);
+        break;
+      case LightType::Sky:
+        power += light.intensity * (float(kPi) * half);
+        break;
+    }
+  }
+  return double(power.MaxBand());
+}
+
+}  // namespace
+
+struct HierarchicalRadiosity::Implementation {
+  Implementation(const Scene& scene_, const ClusterTree& tree,
+                 const HierarchicalRadiosityOptions& options_)
+      : scene(scene_),
+        options(options_),
+        rayScene(scene_.mesh),
+        litSides(FindLitSides(scene_, tree, rayScene, &statistics.rays)),
+        hierarchy(scene_, tree, litSides, options_.leafMesh),
+        received(SourcePower(scene_)) {
+    light.Grow(hierarchy);
+    MakeInitialLinks(hierarchy, &network);
+    network.rays = statistics.rays;
+  }
+
+  const Scene& scene;
+  const HierarchicalRadiosityOptions options;
+  SolverStatistics statistics;
+  RayScene rayScene;
+  std::vector<uint8_t> litSides;
+  ElementHierarchy hierarchy;
+  ElementLight light;
+  LinkNetwork network;
+  double
+      received;  ///< power that the leaves receive, W, largest band; thresholds are fractions of it
+
+  double Exchange(double tolerance) {
+    BoundRowSums(hierarchy, network, &light);
+    double change = 1;
+    for (int sweep = 0; sweep < kMaximumSweeps && change > tolerance; ++sweep) {
+      change = ExchangeLight(hierarchy, network, &light);
+    }
+    return change;
+  }
+  void Count();
+};
+
+HierarchicalRadiosity::HierarchicalRadiosity(const Scene& scene, const ClusterTree& tree,
+                                             const HierarchicalRadiosityOptions& options)
+    : implementation_(new Implementation(scene, tree, options)) {}
+
+HierarchicalRadiosity::~HierarchicalRadiosity() = default;
+
+void HierarchicalRadiosity::Run(const ProgressCallback& progress,
+                                const IterationObserver& observer) {
+  Implementation& self = *implementation_;
+  SolverStatistics& statistics = self.statistics;
+  const Timer timer;
+  const double last = FinalThreshold(self.options.error);
+  const int iterations = std::max(
+      1, 1 + int(std::ceil(std::log(last / kFirstThreshold) / std::log(kThresholdFactor))));
+  double lastIteration = 0;
+  for (int iteration = 1;; ++iteration) {
+    const Timer iterationTimer;
+    const double threshold =
+        std::max(last, kFirstThreshold * std::pow(kThresholdFactor, iteration - 1));
+
+    // Refine, then let light bounce.
+    const double done = double(iteration - 1) / iterations, share = 1.0 / iterations;
+    const ProgressCallback part = [&](double fraction, const char* stage) {
+      return Report(progress, std::min(1.0, done + share * fraction), stage);
+    };
+    if (!RefineLinks(threshold * self.received, self.rayScene, &self.hierarchy, &self.light,
+                     &self.network, part)) {
+      statistics.stoppedBy = "interrupt";
+      break;
+    }
+    const bool isLast = threshold <= last;
+    const double change = self.Exchange(isLast ? kLastSweepTolerance : kSweepTolerance);
+    self.received = std::max(self.received, ReceivedPower(self.hierarchy, self.light));
+
+    // The border of an iteration: the only place where a run ends.
+    statistics.history.push_back({iteration, timer.Seconds(), threshold, self.hierarchy.Size(),
+                                  self.network.Count(), self.network.rays, change});
+    const bool goOn = !observer || observer(statistics.history.back());
+    lastIteration = iterationTimer.Seconds();
+    if (!goOn || !Report(progress, std::min(1.0, double(iteration) / iterations), "iterating")) {
+      statistics.stoppedBy = "interrupt";
+    } else if (self.options.iterations > 0 && iteration >= self.options.iterations) {
+      statistics.stoppedBy = "iterations";
+    } else if (isLast && self.options.iterations <= 0) {
+      statistics.stoppedBy = self.network.linksAtFloor > 0 ? "floor" : "error";
+    } else if (self.options.timeLimit > 0 &&
+               timer.Seconds() + lastIteration > self.options.timeLimit) {
+      statistics.stoppedBy = "time";
+    } else {
+      continue;
+    }
+    break;
+  }
+  self.Count();
+  MeasureEnergyBalance(self.hierarchy, self.network, self.light, self.rayScene, &statistics);
+}
+
+// Elements and links by kind.
+void HierarchicalRadiosity::Implementation::Count() {
+  SolverStatistics& s = statistics;
+  s.volumeElements = s.faceElements = s.patchElements = 0;
+  s.volumeVolume = s.volumeFace = s.faceFace = s.facePatch = s.volumePatch = s.patchPatch = 0;
+  s.fromLights = 0;
+  s.rays = network.rays;
+  s.linksAtFloor = network.linksAtFloor;
+  for (int32_t index = 0; index < hierarchy.Size(); ++index) {
+    const ElementKind kind = hierarchy[index].kind;
+    if (kind == ElementKind::Volume) ++s.volumeElements;
+    if (kind == ElementKind::Face) ++s.faceElements;
+    if (kind == ElementKind::Patch) ++s.patchElements;
+    for (const Link& link : network.incoming[size_t(index)]) {
+      const ElementKind source = hierarchy[link.source].kind;
+      const ElementKind coarse = std::min(kind, source), fine = std::max(kind, source);
+      if (source == ElementKind::Light)
+        ++s.fromLights;
+      else if (fine == ElementKind::Volume)
+        ++s.volumeVolume;
+      else if (fine == ElementKind::Face)
+        ++(coarse == ElementKind::Volume ? s.volumeFace : s.faceFace);
+      else if (coarse == ElementKind::Volume)
+        ++s.volumePatch;
+      else
+        ++(coarse == ElementKind::Face ? s.facePatch : s.patchPatch);
+    }
+  }
+}
+
+RadiositySolution HierarchicalRadiosity::Solution() const {
+  Implementation& self = *implementation_;
+  const LightReconstruction light(self.hierarchy, self.network, self.light, self.rayScene);
+  return MakeRefinedMesh(&self.hierarchy, light, self.litSides, &self.network.rays);
+}
+
+const SolverStatistics& HierarchicalRadiosity::Statistics() const {
+  return implementation_->statistics;
+}
+
+}  // namespace lambert

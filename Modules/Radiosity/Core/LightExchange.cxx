@@ -1,0 +1,169 @@
+#include "Radiosity/Core/LightExchange.h"
+
+#include <cmath>
+
+#include "Common/Core/Parallel.h"
+
+namespace lambert {
+
+namespace {
+
+/// Sum of |transfer x radiosity| and of the vectors: volumes keep both, to tell light from one side
+/// from light from all.
+VectorIrradiance Gather(const Element& receiver, const std::vector<Link>& links,
+                        const ElementLight& light) {
+  VectorIrradiance sum;
+  for (const Link& link : links) {
+    const Spectrum& radiosity = light.radiosity[size_t(link.source)];
+    sum.Add(link.transfer, radiosity);  // (4.20)
+    if (receiver.IsVolume()) sum.isotropic += radiosity * Length(link.transfer);
+  }
+  return sum;
+}
+
+/// Pulled up from the leaves: power and the power of squares, to have mean and variation.
+void Pull(const ElementHierarchy& hierarchy, int32_t index, ElementLight* light) {
+  const Element& parent = hierarchy[index];
+  Spectrum sum;
+  double squares = 0;
+  for (int32_t child = parent.child; child < parent.child + parent.childCount; ++child) {
+    const float area = hierarchy[child].area;
+    sum += light->radiosity[size_t(child)] * area;
+    const double mean = light->radiosity[size_t(child)].MaxBand();
+    const double deviation = light->variation[size_t(child)];
+    squares += area * (mean * mean + deviation * deviation);
+  }
+  if (!(parent.area > 0)) return;
+  const Spectrum radiosity = sum / parent.area;  // (4.17)
+  const double mean = radiosity.MaxBand();
+  light->radiosity[size_t(index)] = radiosity;
+  light->variation[size_t(index)] =
+      float(std::sqrt(std::max(0.0, squares / double(parent.area) - mean * mean)));
+}
+
+struct Change {
+  double difference = 0, total = 0;
+  Change& operator+=(const Change& c) {
+    difference += c.difference;
+    total += c.total;
+    return *this;
+  }
+};
+
+}  // namespace
+
+Spectrum ElementIrradiance(const Element& element, const VectorIrradiance& irradiance) {
+  Spectrum e;
+  for (int band = 0; band < 3; ++band) {
+    float power = std::max(0.f, Dot(element.vectorArea, irradiance.vector[size_t(band)]));
+    // Normals over more than a hemisphere: what the vector area hides still faces the light with a
+    // quarter of its area.
+    if (element.coneAngle > float(kPi) / 2) {
+      const float hidden = std::max(0.f, element.area - Length(element.vectorArea));
+      power += 0.25f * hidden * Length(irradiance.vector[size_t(band)]);
+    }
+    e[band] = (element.area > 0 ? power / element.area : 0) + irradiance.isotropic[band];
+  }
+  return e;
+}
+
+double ReceivedPower(const ElementHierarchy& hierarchy, const ElementLight& light) {
+  return OrderedSum<double>(hierarchy.Size(), [&](int64_t i) {
+    const Element& element = hierarchy[int32_t(i)];
+    if (!element.IsLeaf() || element.kind == ElementKind::Light) return 0.0;
+    return double(ElementIrradiance(element, light.irradiance[size_t(i)]).MaxBand()) *
+           double(light.rowScale[size_t(i)]) * double(element.area);
+  });
+}
+
+VectorIrradiance PushIrradiance(const Element& parent, const VectorIrradiance& irradiance,
+                                const Element& child) {
+  VectorIrradiance pushed = irradiance;
+  // Leaving the volumes: what did not come from one side came from all around.
+  if (parent.IsVolume() && !child.IsVolume()) {
+    for (int band = 0; band < 3; ++band) {
+      pushed.isotropic[band] = 0.25f * std::max(0.f, irradiance.isotropic[band] -
+                                                         Length(irradiance.vector[size_t(band)]));
+    }
+  }
+  if (child.IsVolume() || child.coneAngle > float(kPi) / 2) return pushed;
+  for (Vec3f& vector : pushed.vector) {
+    if (Dot(vector, child.vectorArea) <= 0) vector = Vec3f();  // (4.14)
+  }
+  return pushed;
+}
+
+void BoundRowSums(const ElementHierarchy& hierarchy, const LinkNetwork& network,
+                  ElementLight* light) {
+  // The light of a world in which every surface has radiosity 1: the irradiance of a leaf is its
+  // row sum.
+  const size_t size = size_t(hierarchy.Size());
+  std::vector<VectorIrradiance> unit(size);
+  for (const std::vector<int32_t>& level : hierarchy.Levels()) {
+    ParallelForEach(int64_t(level.size()), 256, [&](int64_t i) {
+      const int32_t index = level[size_t(i)];
+      const Element& element = hierarchy[index];
+      if (element.kind == ElementKind::Light) return;
+      VectorIrradiance& sum = unit[size_t(index)];
+      for (const Link& link : network.incoming[size_t(index)]) {
+        if (hierarchy[link.source].kind == ElementKind::Light) continue;
+        sum.vector[0] += link.transfer;
+        if (element.IsVolume()) sum.isotropic.r += Length(link.transfer);
+      }
+      if (element.parent >= 0) {
+        sum += PushIrradiance(hierarchy[element.parent], unit[size_t(element.parent)], element);
+      }
+      const float row = ElementIrradiance(element, sum).r;
+      light->rowScale[size_t(index)] = row > 1 ? 1 / row : 1;
+    });
+  }
+}
+
+double ExchangeLight(const ElementHierarchy& hierarchy, const LinkNetwork& network,
+                     ElementLight* light) {
+  // Gather and push, level by level from the root.
+  const auto& levels = hierarchy.Levels();
+  for (const std::vector<int32_t>& level : levels) {
+    ParallelForEach(int64_t(level.size()), 256, [&](int64_t i) {
+      const int32_t index = level[size_t(i)];
+      const Element& element = hierarchy[index];
+      if (element.kind == ElementKind::Light) return;
+      VectorIrradiance irradiance = Gather(element, network.incoming[size_t(index)], *light);
+      if (element.parent >= 0) {
+        irradiance += PushIrradiance(hierarchy[element.parent],
+                                     light->irradiance[size_t(element.parent)], element);
+      }
+      light->irradiance[size_t(index)] = irradiance;
+    });
+  }
+
+  // Reflect at the leaves and pull, level by level to the root.
+  Change change;
+  for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
+    change += OrderedSum<Change>(int64_t(level->size()), [&](int64_t i) {
+      const int32_t index = (*level)[size_t(i)];
+      const Element& element = hierarchy[index];
+      Change here;
+      if (element.kind == ElementKind::Light) return here;
+      if (!element.IsLeaf()) {
+        Pull(hierarchy, index, light);
+        return here;
+      }
+      const Spectrum radiosity =
+          element.emittance + element.reflectance *
+                                  ElementIrradiance(element, light->irradiance[size_t(index)]) *
+                                  light->rowScale[size_t(index)];  // (4.21)
+      const Spectrum& old = light->radiosity[size_t(index)];
+      for (int band = 0; band < 3; ++band) {
+        here.difference += std::fabs(double(radiosity[band]) - double(old[band])) * element.area;
+        here.total += double(radiosity[band]) * element.area;
+      }
+      light->radiosity[size_t(index)] = radiosity;
+      light->variation[size_t(index)] = 0;
+      return here;
+    });
+  }
+  return change.total > 0 ? change.difference / change.total : 0;
+}
+
+}  // namespace lambert

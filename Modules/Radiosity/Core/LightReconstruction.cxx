@@ -1,0 +1,147 @@
+#include "Radiosity/Core/LightReconstruction.h"
+
+#include <algorithm>
+
+#include "Common/Core/Parallel.h"
+#include "Radiosity/Core/LightExchange.h"
+#include "Radiosity/Core/Transfer.h"
+
+namespace lambert {
+
+namespace {
+
+/// Links that give less than this part of a receiver's light keep their stored visibility: no ray
+/// is worth it.
+constexpr float kNegligiblePart = 2e-3f;
+
+bool IsWide(const Element& element) { return element.coneAngle > float(kPi) / 2; }
+
+}  // namespace
+
+LightReconstruction::LightReconstruction(const ElementHierarchy& hierarchy,
+                                         const LinkNetwork& network, const ElementLight& light,
+                                         const RayScene& rayScene)
+    : hierarchy_(hierarchy), network_(network), light_(light), rayScene_(rayScene) {
+  // Corners are kept for clusters of several faces; triangles and patches are evaluated where they
+  // are asked.
+  cornerIndex_.assign(size_t(hierarchy.Size()), -1);
+  int32_t clusters = 0;
+  for (int32_t element = 0; element < hierarchy.Size(); ++element) {
+    if (IsCluster(element)) cornerIndex_[size_t(element)] = clusters++;
+  }
+  corners_.resize(size_t(clusters));
+
+  // The parent's light, interpolated, plus the cluster's own links.
+  for (const std::vector<int32_t>& level : hierarchy.Levels()) {
+    ParallelForEach(int64_t(level.size()), 32, [&](int64_t i) {
+      const int32_t index = level[size_t(i)];
+      if (!IsCluster(index)) return;
+      const Element& cluster = hierarchy_[index];
+      const Element& parent = hierarchy_[cluster.parent];
+      for (int k = 0; k < 4; ++k) {
+        const Vec3f x = cluster.frame.Corner(k);
+        VectorIrradiance sum =
+            parent.IsVolume() ? FromVolumes(index, x) : Interpolate(cluster.parent, x);
+        AddLinks(index, cluster, x, false, &sum, nullptr, nullptr);
+        corners_[size_t(cornerIndex_[size_t(index)])][size_t(k)] = sum;
+      }
+    });
+  }
+}
+
+bool LightReconstruction::IsCluster(int32_t element) const {
+  const Element& e = hierarchy_[element];
+  return e.kind == ElementKind::Face && !e.IsPolygon();
+}
+
+VectorIrradiance LightReconstruction::At(int32_t leaf, const Vec3f& x, int64_t* rays) const {
+  const float scale = light_.rowScale[size_t(leaf)];
+  if (IsCluster(leaf)) return Interpolate(leaf, x) * scale;
+  const Element& receiver = hierarchy_[leaf];
+  VectorIrradiance sum;
+  int32_t index = leaf;
+  for (; !IsCluster(index); index = hierarchy_[index].parent) {
+    AddLinks(index, receiver, x, true, &sum, nullptr, rays);
+    if (hierarchy_[hierarchy_[index].parent].IsVolume()) {
+      sum += FromVolumes(index, x);
+      return sum * scale;
+    }
+  }
+  VectorIrradiance above = Interpolate(index, x);
+  for (Vec3f& vector : above.vector) {
+    if (Dot(vector, receiver.axis) <= 0) vector = Vec3f();
+  }
+  sum += above;
+  return sum * scale;
+}
+
+// Bilinear between the corners of the cluster's rectangle.
+VectorIrradiance LightReconstruction::Interpolate(int32_t cluster, const Vec3f& x) const {
+  const ClusterFrame& frame = hierarchy_[cluster].frame;
+  const Corners& corners = corners_[size_t(cornerIndex_[size_t(cluster)])];
+  const Vec3f offset = x - frame.center;
+  const auto place = [&](int axis) {
+    const float half = frame.halfExtent[axis];
+    if (!(half > 0)) return 0.5f;
+    return std::min(1.f, std::max(0.f, Dot(offset, frame.axes[size_t(axis)]) / (2 * half) + 0.5f));
+  };
+  const float u = place(0), v = place(1);
+  VectorIrradiance sum = corners[0] * ((1 - u) * (1 - v));
+  sum += corners[1] * (u * (1 - v));
+  sum += corners[2] * (u * v);
+  sum += corners[3] * ((1 - u) * v);
+  return sum;
+}
+
+void LightReconstruction::AddLinks(int32_t holder, const Element& receiver, const Vec3f& x,
+                                   bool castRays, VectorIrradiance* sum, Spectrum* fluence,
+                                   int64_t* rays) const {
+  const Vec3f horizon = IsWide(receiver) ? Vec3f() : receiver.axis;
+  const float received =
+      ElementIrradiance(hierarchy_[holder], light_.irradiance[size_t(holder)]).MaxBand();
+  for (const Link& link : network_.incoming[size_t(holder)]) {
+    const Spectrum& radiosity = light_.radiosity[size_t(link.source)];
+    if (!link.isSampled || link.visibility == 0 || radiosity.IsBlack()) continue;
+    const Element& source = hierarchy_[link.source];
+    const bool isPartial = link.visibility < 255;
+
+    // A sky is nothing but its visibility.
+    const bool isSky = source.kind == ElementKind::Light &&
+                       hierarchy_.GetScene().lights[size_t(source.item)].type == LightType::Sky;
+    if (isSky) {
+      float visible = 0;
+      int64_t cast = 0;
+      sum->Add(castRays && isPartial ? SkyTransfer(rayScene_, x, horizon, &visible, &cast)
+                                     : link.transfer,
+               radiosity);
+      if (rays) *rays += cast;
+      continue;
+    }
+    const Vec3f kernel = UnoccludedTransfer(hierarchy_, source, x, horizon);
+    float visible = float(link.visibility) / 255;
+    if (castRays && isPartial &&
+        Length(kernel) * radiosity.MaxBand() > kNegligiblePart * received) {
+      visible = VisibleFraction(hierarchy_, rayScene_, source, x, horizon, rays);
+    }
+    sum->Add(kernel * visible, radiosity);
+    if (fluence) *fluence += radiosity * (Length(kernel) * visible);
+  }
+}
+
+// Links at volume clusters, pushed to the root of one side of a surface.
+VectorIrradiance LightReconstruction::FromVolumes(int32_t surfaceSide, const Vec3f& x) const {
+  const Element& receiver = hierarchy_[surfaceSide];
+  VectorIrradiance sum;
+  Spectrum fluence;
+  for (int32_t volume = receiver.parent; volume >= 0; volume = hierarchy_[volume].parent) {
+    AddLinks(volume, receiver, x, false, &sum, &fluence, nullptr);
+  }
+  if (IsWide(receiver)) {
+    for (int band = 0; band < 3; ++band) {
+      sum.isotropic[band] = 0.25f * std::max(0.f, fluence[band] - Length(sum.vector[size_t(band)]));
+    }
+  }
+  return sum;
+}
+
+}  // namespace lambert

@@ -1,0 +1,42 @@
+// Light at any point of the elements: links re-evaluated at the corners of clusters and at points
+// of triangles, and interpolated in between (thesis 4.5.5, 6.4.1).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "Radiosity/Core/ElementHierarchy.h"
+#include "Radiosity/Core/LinkRefinement.h"
+#include "Visibility/Core/RayScene.h"
+
+namespace lambert {
+
+class LightReconstruction {
+ public:
+  /// Evaluates the corners of all cluster elements, from the root clusters down. All by reference.
+  LightReconstruction(const ElementHierarchy& hierarchy, const LinkNetwork& network,
+                      const ElementLight& light, const RayScene& rayScene);
+
+  /// Irradiance at `x` on the leaf element `leaf`: interpolated over the cluster above it, plus the
+  /// links of the triangle and patches that hold `x`, each with its own kernel and, where the link
+  /// is partly blocked, its own rays.
+  VectorIrradiance At(int32_t leaf, const Vec3f& x, int64_t* rays) const;
+
+ private:
+  using Corners = std::array<VectorIrradiance, 4>;
+
+  bool IsCluster(int32_t element) const;
+  VectorIrradiance Interpolate(int32_t cluster, const Vec3f& x) const;
+  void AddLinks(int32_t holder, const Element& receiver, const Vec3f& x, bool castRays,
+                VectorIrradiance* sum, Spectrum* fluence, int64_t* rays) const;
+  VectorIrradiance FromVolumes(int32_t surfaceSide, const Vec3f& x) const;
+
+  const ElementHierarchy& hierarchy_;
+  const LinkNetwork& network_;
+  const ElementLight& light_;
+  const RayScene& rayScene_;
+  std::vector<int32_t> cornerIndex_;  ///< by element; -1 for those that are no clusters
+  std::vector<Corners> corners_;
+};
+
+}  // namespace lambert

@@ -1,0 +1,47 @@
+// Refinement of links: a link in error beyond the threshold is replaced by links to the children of
+// one of its ends (thesis 3.2.2, 4.5.2).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "Common/Core/Progress.h"
+#include "Radiosity/Core/Element.h"
+#include "Radiosity/Core/ElementHierarchy.h"
+#include "Visibility/Core/RayScene.h"
+
+namespace lambert {
+
+/// The light of every element, by element index.
+struct ElementLight {
+  std::vector<Spectrum> radiosity;  ///< W/m2; of lights: intensity, irradiance or radiance
+  std::vector<float> variation;  ///< standard deviation of the radiosity within the element, W/m2
+  std::vector<VectorIrradiance> irradiance;  ///< W/m2, what ancestors receive included
+  std::vector<float>
+      rowScale;  ///< (0, 1]: keeps the form factors of a leaf's links from adding up to more than 1
+
+  /// Room for new elements: children start with their parent's reflected light and their own
+  /// emission.
+  void Grow(const ElementHierarchy& hierarchy);
+};
+
+/// The links of every element, by receiver.
+struct LinkNetwork {
+  std::vector<std::vector<Link>> incoming;
+  int64_t rays = 0;  ///< cast so far
+  int64_t linksAtFloor =
+      0;  ///< links over the last threshold whose ends could not be split further
+
+  int64_t Count() const;
+};
+
+/// The first links: the scene with itself, black emitters and lights to the scene (4.5.1).
+void MakeInitialLinks(const ElementHierarchy& hierarchy, LinkNetwork* network);
+
+/// Refines every link whose error exceeds `threshold` (W), splitting the end that contributes most
+/// to it, until none does or nothing can be split. Returns false, with the links as they were,
+/// where `progress` asked to stop.
+bool RefineLinks(double threshold, const RayScene& rayScene, ElementHierarchy* hierarchy,
+                 ElementLight* light, LinkNetwork* network, const ProgressCallback& progress = {});
+
+}  // namespace lambert

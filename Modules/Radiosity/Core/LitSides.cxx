@@ -1,0 +1,132 @@
+#include "Radiosity/Core/LitSides.h"
+
+#include <algorithm>
+
+#include "Common/Core/Parallel.h"
+#include "Common/Core/Random.h"
+
+namespace lambert {
+
+namespace {
+
+constexpr int kRaysPerSide = 64;
+/// Large surfaces get more rays: one to this many faces.
+constexpr int kFacesPerRay = 64;
+constexpr int kMaximumRaysPerSide = 4096;
+
+/// What the rays of one side met.
+struct SideView {
+  std::vector<int32_t> seen;  ///< sides, 2 x surface + side; sorted, unique
+  bool seesLight = false;     ///< a light without geometry, or the sky
+  int64_t rays = 0;
+};
+
+bool SeesLight(const Scene& scene, const RayScene& rayScene, const Vec3f& x, const Vec3f& n) {
+  for (const Light& light : scene.lights) {
+    if (light.type == LightType::Sky || light.intensity.IsBlack()) continue;
+    const bool isFar = light.type == LightType::Directional;
+    const Vec3f toward = isFar ? -light.direction : light.position - x;
+    if (Dot(toward, n) <= 0 || light.ConeFactor(-Normalize(toward)) <= 0) continue;
+    const bool blocked =
+        isFar ? rayScene.OccludedDirection(x, toward) : rayScene.Occluded(x, light.position);
+    if (!blocked) return true;
+  }
+  return false;
+}
+
+SideView LookAround(const Scene& scene, const ClusterNode& root, int32_t side,
+                    const RayScene& rayScene, bool hasSky) {
+  const TriangleMesh& mesh = scene.mesh;
+  SideView view;
+  const int rays =
+      std::min(kMaximumRaysPerSide, std::max(kRaysPerSide, root.faceCount / kFacesPerRay));
+  Random random(HashBits(uint64_t(root.firstFace), uint64_t(side)));
+  for (int ray = 0; ray < rays; ++ray) {
+    // Half the places by face, half of them by rank along the tree: slivers and large faces both
+    // get some.
+    const int64_t face =
+        root.firstFace +
+        std::min<int64_t>(root.faceCount - 1,
+                          int64_t((ray + random.UniformDouble()) / rays * root.faceCount));
+    Vec3f n = mesh.FrontNormal(face);
+    if (n == Vec3f()) continue;
+    if (side == kBack) n = -n;
+    const Vec2f b = UniformTriangle(random.Uniform(), random.Uniform());
+    const Vec3f& p = mesh.Corner(face, 0);
+    const Vec3f x = p + (mesh.Corner(face, 1) - p) * b.x + (mesh.Corner(face, 2) - p) * b.y;
+    Vec3f u, v;
+    CoordinateSystem(n, &u, &v);
+    const Vec3f d = CosineHemisphere(random.Uniform(), random.Uniform());
+    const Vec3f direction = u * d.x + v * d.y + n * d.z;
+    ++view.rays;
+    view.seesLight = view.seesLight || SeesLight(scene, rayScene, x, n);
+    const RayHit hit = rayScene.Closest(x, direction);
+    if (hit.face < 0) {
+      view.seesLight = view.seesLight || hasSky;
+      continue;
+    }
+    const bool fromFront = Dot(direction, mesh.VectorArea(hit.face)) < 0;
+    view.seen.push_back(2 * mesh.surfaceId[size_t(hit.face)] + (fromFront ? kFront : kBack));
+  }
+  std::sort(view.seen.begin(), view.seen.end());
+  view.seen.erase(std::unique(view.seen.begin(), view.seen.end()), view.seen.end());
+  return view;
+}
+
+bool SideEmits(const TriangleMesh& mesh, const ClusterNode& root, Side side) {
+  for (int32_t face = root.firstFace; face < root.firstFace + root.faceCount; ++face) {
+    if (mesh.Emits(face, side) && !mesh.emittance[size_t(face)].IsBlack()) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<uint8_t> FindLitSides(const Scene& scene, const ClusterTree& tree,
+                                  const RayScene& rayScene, int64_t* rays) {
+  // Every side looks around.
+  const int64_t surfaces = int64_t(tree.surfaceRoots.size());
+  const bool hasSky = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) {
+    return l.type == LightType::Sky && !l.intensity.IsBlack();
+  });
+  std::vector<SideView> views(static_cast<size_t>(2 * surfaces));
+  ParallelForEach(2 * surfaces, 4, [&](int64_t i) {
+    const ClusterNode& root = tree.nodes[size_t(tree.surfaceRoots[size_t(i / 2)])];
+    views[size_t(i)] = LookAround(scene, root, int32_t(i % 2), rayScene, hasSky);
+  });
+
+  // Seeing is mutual.
+  std::vector<std::vector<int32_t>> neighbours(views.size());
+  for (size_t i = 0; i < views.size(); ++i) {
+    *rays += views[i].rays;
+    for (const int32_t j : views[i].seen) {
+      neighbours[i].push_back(j);
+      neighbours[size_t(j)].push_back(int32_t(i));
+    }
+  }
+
+  // Light spreads from the sources.
+  std::vector<uint8_t> lit(views.size(), 0);
+  std::vector<int32_t> front;
+  for (int32_t i = 0; i < int32_t(views.size()); ++i) {
+    const ClusterNode& root = tree.nodes[size_t(tree.surfaceRoots[size_t(i / 2)])];
+    if (views[size_t(i)].seesLight || SideEmits(scene.mesh, root, Side(i % 2))) front.push_back(i);
+  }
+  for (const int32_t i : front) lit[size_t(i)] = 1;
+  while (!front.empty()) {
+    const int32_t i = front.back();
+    front.pop_back();
+    for (const int32_t j : neighbours[size_t(i)]) {
+      if (lit[size_t(j)]) continue;
+      lit[size_t(j)] = 1;
+      front.push_back(j);
+    }
+  }
+  std::vector<uint8_t> litSides(static_cast<size_t>(surfaces));
+  for (size_t s = 0; s < litSides.size(); ++s) {
+    litSides[s] = uint8_t(lit[2 * s] | (lit[2 * s + 1] << 1));
+  }
+  return litSides;
+}
+
+}  // namespace lambert

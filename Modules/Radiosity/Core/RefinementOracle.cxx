@@ -1,0 +1,159 @@
+#include "Radiosity/Core/RefinementOracle.h"
+
+#include <algorithm>
+
+namespace lambert {
+
+namespace {
+
+/// Part of the unoccluded transfer that is in doubt where all sample pairs were clear, all blocked,
+/// or mixed.
+constexpr float kDoubtClear = 0.02f;
+constexpr float kDoubtBlocked = 0.1f;
+constexpr float kDoubtPartial = 0.35f;
+/// Links with such an end are no more than guesses of the order of the transfer itself.
+constexpr float kVolumeSpread = 1.f;
+/// Elements flatter than this cone (radians) are treated as planes when sides are told apart.
+constexpr float kPlanarCone = 1e-3f;
+
+float Clamp01(float v) { return std::min(1.f, std::max(0.f, v)); }
+
+/// Distance from a point to a box, m.
+float Distance(const Vec3f& p, const ClusterFrame& box) {
+  const Vec3f offset = p - box.center;
+  float squared = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float beyond =
+        std::max(0.f, std::fabs(Dot(offset, box.axes[size_t(axis)])) - box.halfExtent[axis]);
+    squared += beyond * beyond;
+  }
+  return std::sqrt(squared);
+}
+
+/// Largest height of a box over the plane through `origin`, m.
+float HeightOver(const ClusterFrame& box, const Vec3f& origin, const Vec3f& normal) {
+  float height = Dot(box.center - origin, normal);
+  for (int axis = 0; axis < 3; ++axis) {
+    height += std::fabs(Dot(box.axes[size_t(axis)], normal)) * box.halfExtent[axis];
+  }
+  return height;
+}
+
+/// Largest and middle cosine between an element's normals and the way to another's center.
+struct Cosines {
+  float largest, middle;
+};
+Cosines CosinesToward(const Element& element, const Vec3f& direction, float angularSize) {
+  if (element.IsVolume()) return {1, 0.5f};
+  const float middle = Dot(element.axis, direction);
+  const float spread = element.coneAngle + angularSize;
+  if (spread >= float(kPi) / 2) return {1, std::max(0.25f, middle)};
+  const float angle = std::acos(std::max(-1.f, std::min(1.f, middle)));
+  return {std::cos(std::max(0.f, angle - spread)), middle};
+}
+
+}  // namespace
+
+PairBound BoundPair(const ElementHierarchy& hierarchy, const Element& source,
+                    const Element& receiver) {
+  PairBound bound;
+  const float noHeight = 1e-6f * hierarchy.SceneDiagonal();
+
+  // Lights: their kernel at the center, nothing known of it over a receiver that spans its
+  // distance.
+  if (source.kind == ElementKind::Light) {
+    const Light& light = hierarchy.GetScene().lights[size_t(source.item)];
+    const bool isFar = light.type == LightType::Directional || light.type == LightType::Sky;
+    const float distance =
+        isFar ? hierarchy.SceneDiagonal() : Length(light.position - receiver.frame.center);
+    if (light.type != LightType::Sky && receiver.coneAngle < kPlanarCone) {
+      const Vec3f toward = isFar ? -light.direction : light.position - receiver.frame.center;
+      bound.apart = Dot(receiver.axis, toward) <= 0;
+    }
+    const float nearest = std::max(distance - receiver.radius, 0.1f * receiver.radius);
+    const float ratio = receiver.radius / std::max(nearest, 1e-20f);
+    bound.formFactor = light.type == LightType::Sky ? float(kPi)
+                       : light.type == LightType::Directional
+                           ? 1.f
+                           : 1 / std::max(nearest * nearest, 1e-20f);
+    bound.receiverSpread = receiver.IsVolume() || receiver.coneAngle > float(kPi) / 2
+                               ? 1.f
+                               : (isFar ? 0.f : Clamp01(ratio * ratio));
+    if (light.type == LightType::Spot)
+      bound.receiverSpread = Clamp01(std::max(bound.receiverSpread, ratio));
+    return bound;
+  }
+
+  // Planes cannot light what lies behind them.
+  if (source.coneAngle < kPlanarCone &&
+      HeightOver(receiver.frame, source.frame.center, source.axis) <=
+          source.frame.halfExtent.z + noHeight) {
+    bound.apart = true;
+    return bound;
+  }
+  if (receiver.coneAngle < kPlanarCone &&
+      HeightOver(source.frame, receiver.frame.center, receiver.axis) <=
+          receiver.frame.halfExtent.z + noHeight) {
+    bound.apart = true;
+    return bound;
+  }
+
+  // Neither can normals that all turn away.
+  const Vec3f offset = receiver.frame.center - source.frame.center;
+  const float distance = Length(offset);
+  const Vec3f direction = distance > 0 ? offset / distance : Vec3f(0, 0, 1);
+  const float ratio = (source.radius + receiver.radius) / std::max(distance, 1e-20f);
+  const float angularSize = ratio < 1 ? std::asin(ratio) : float(kPi);
+  const Cosines atSource = CosinesToward(source, direction, angularSize);
+  const Cosines atReceiver = CosinesToward(receiver, -direction, angularSize);
+  if (atSource.largest <= 0 || atReceiver.largest <= 0) {
+    bound.apart = true;
+    return bound;
+  }
+
+  // Form factor of a disc of the source's area, with cosines between the middle and the largest.
+  const float sourceArea = source.IsVolume() ? source.area / 4 : source.area;
+  const float cosine = std::max(0.5f * (atSource.largest + std::max(0.f, atSource.middle)), 1e-3f);
+  const float receiverCosine = 0.5f * (atReceiver.largest + std::max(0.f, atReceiver.middle));
+  bound.formFactor = receiverCosine * cosine * sourceArea /
+                     (float(kPi) * distance * distance + cosine * sourceArea);
+
+  // Variation over the receiver, of second order where reconstruction follows the first; shape of
+  // the source.
+  const float toSource = std::max(Distance(receiver.frame.center, source.frame), 1e-20f);
+  const float toReceiver = std::max(Distance(source.frame.center, receiver.frame), 1e-20f);
+  const float receiverRatio = Clamp01(receiver.radius / toSource);
+  bound.nearness = Clamp01(source.radius / toReceiver);
+  bound.receiverSpread = receiver.IsVolume() ? kVolumeSpread : receiverRatio * receiverRatio;
+  bound.sourceSpread = source.IsVolume()    ? kVolumeSpread
+                       : source.IsPolygon() ? 0.f
+                                            : bound.nearness * bound.nearness;
+  // Normals over more than a hemisphere: no vector tells what such a cluster receives or sends.
+  if (!receiver.IsVolume() && receiver.coneAngle > float(kPi) / 2) bound.receiverSpread = 1;
+  if (!source.IsVolume() && source.coneAngle > float(kPi) / 2) bound.sourceSpread = 1;
+  return bound;
+}
+
+TransferError EstimateError(const PairBound& bound, float radiosity, float variation,
+                            float visibility, const Element& source, const Element& receiver) {
+  // Shape and distance.
+  TransferError error;
+  const float transfer = bound.formFactor * radiosity;
+  const float seen = visibility < 0 ? 1.f : std::max(visibility, kDoubtBlocked);
+  error.byReceiver = transfer * bound.receiverSpread * seen;
+  error.bySource =
+      (transfer * bound.sourceSpread + bound.formFactor * variation * bound.nearness) * seen;
+
+  // Visibility: the larger end is what samples miss most of.
+  if (visibility >= 0) {
+    const float doubt = visibility <= 0   ? kDoubtBlocked
+                        : visibility >= 1 ? kDoubtClear
+                                          : kDoubtPartial;
+    const bool splitSource =
+        source.radius > 2 * receiver.radius && source.kind != ElementKind::Light;
+    (splitSource ? error.bySource : error.byReceiver) += transfer * doubt;
+  }
+  return error;
+}
+
+}  // namespace lambert

@@ -1,0 +1,174 @@
+#include "Radiosity/Core/Transfer.h"
+
+#include <array>
+
+#include "Radiosity/Core/PolygonIrradiance.h"
+
+namespace lambert {
+
+namespace {
+
+constexpr int kSkyDirections = 64;
+
+/// Directions over the hemisphere about +z with equal solid angle (spherical Fibonacci lattice).
+const std::array<Vec3f, kSkyDirections>& SkyDirections() {
+  static const std::array<Vec3f, kSkyDirections> directions = [] {
+    std::array<Vec3f, kSkyDirections> d;
+    const double golden = kPi * (3 - std::sqrt(5.0));
+    for (int i = 0; i < kSkyDirections; ++i) {
+      const double z = (i + 0.5) / kSkyDirections, r = std::sqrt(1 - z * z);
+      d[size_t(i)] =
+          Vec3f(float(r * std::cos(golden * i)), float(r * std::sin(golden * i)), float(z));
+    }
+    return d;
+  }();
+  return directions;
+}
+
+bool HasHorizon(const Vec3f& horizon) { return horizon != Vec3f(); }
+
+/// A cluster as small discs at its samples; a volume sends its light into all directions alike.
+Vec3f ClusterTransfer(const Element& source, const Vec3f& x, const Vec3f& horizon) {
+  const float share = source.area / kSamplesPerElement;
+  Vec3f sum;
+  for (const SurfaceSample& sample : source.samples) {
+    const Vec3f offset = sample.position - x;
+    const float squared = LengthSquared(offset);
+    if (!(squared > 0) || (HasHorizon(horizon) && Dot(offset, horizon) <= 0)) continue;
+    const Vec3f direction = offset / std::sqrt(squared);
+    const float cosine = source.IsVolume() ? 0.25f : -Dot(direction, sample.normal);
+    if (cosine <= 0) continue;
+    sum += direction * (cosine * share / (float(kPi) * squared + cosine * share));
+  }
+  const float length = Length(sum);
+  return length > 1 ? sum / length : sum;
+}
+
+Vec3f LightTransfer(const Light& light, const Vec3f& x, const Vec3f& horizon) {
+  if (light.type == LightType::Sky) return horizon * float(kPi);
+  if (light.type == LightType::Directional) {
+    return HasHorizon(horizon) && Dot(light.direction, horizon) >= 0 ? Vec3f() : -light.direction;
+  }
+  const Vec3f offset = light.position - x;
+  const float squared = LengthSquared(offset);
+  if (!(squared > 0) || (HasHorizon(horizon) && Dot(offset, horizon) <= 0)) return {};
+  const Vec3f direction = offset / std::sqrt(squared);
+  return direction * (light.ConeFactor(-direction) / squared);
+}
+
+/// Where a ray from `x` toward sample `k` of the source ends; false where that sample cannot be
+/// seen from there.
+bool RayTarget(const ElementHierarchy& hierarchy, const Element& source, int k, const Vec3f& x,
+               const Vec3f& horizon, Vec3f* target) {
+  if (source.kind == ElementKind::Light) {
+    const Light& light = hierarchy.GetScene().lights[size_t(source.item)];
+    *target = light.type == LightType::Directional
+                  ? x - light.direction * (2 * hierarchy.SceneDiagonal())
+                  : light.position;
+    return !HasHorizon(horizon) || Dot(*target - x, horizon) > 0;
+  }
+  const SurfaceSample& sample = source.samples[size_t(k)];
+  *target = sample.position;
+  const Vec3f offset = *target - x;
+  return Dot(offset, sample.normal) < 0 && (!HasHorizon(horizon) || Dot(offset, horizon) > 0);
+}
+
+/// The clip plane of a place on a receiver: volumes receive from everywhere.
+Vec3f Horizon(const Element& receiver, const SurfaceSample& sample) {
+  if (receiver.IsVolume()) return {};
+  return receiver.IsPolygon() ? receiver.axis : sample.normal;
+}
+
+}  // namespace
+
+Vec3f UnoccludedTransfer(const ElementHierarchy& hierarchy, const Element& source, const Vec3f& x,
+                         const Vec3f& horizon) {
+  if (source.kind == ElementKind::Light) {
+    return LightTransfer(hierarchy.GetScene().lights[size_t(source.item)], x, horizon);
+  }
+  if (!source.IsPolygon()) return ClusterTransfer(source, x, horizon);
+  Vec3f corners[kMaximumPolygonCorners];
+  const int count = hierarchy.PolygonCorners(source, corners);
+  return Vec3f(HasHorizon(horizon) ? PolygonIrradianceAbove(corners, count, x, horizon)
+                                   : PolygonIrradiance(corners, count, x));
+}
+
+float VisibleFraction(const ElementHierarchy& hierarchy, const RayScene& rayScene,
+                      const Element& source, const Vec3f& x, const Vec3f& horizon, int64_t* rays) {
+  int cast = 0, clear = 0;
+  const int samples = source.kind == ElementKind::Light ? 1 : kSamplesPerElement;
+  for (int k = 0; k < samples; ++k) {
+    Vec3f target;
+    if (!RayTarget(hierarchy, source, k, x, horizon, &target)) continue;
+    ++cast;
+    if (!rayScene.Occluded(x, target)) ++clear;
+  }
+  *rays += cast;
+  return cast > 0 ? float(clear) / float(cast) : 1;
+}
+
+Vec3f SkyTransfer(const RayScene& rayScene, const Vec3f& x, const Vec3f& horizon, float* visible,
+                  int64_t* rays) {
+  Vec3f u, v, sum;
+  CoordinateSystem(horizon, &u, &v);
+  float open = 0, all = 0;
+  for (const Vec3f& d : SkyDirections()) {
+    const Vec3f direction = u * d.x + v * d.y + horizon * d.z;
+    all += d.z;
+    if (rayScene.OccludedDirection(x, direction)) continue;
+    open += d.z;
+    sum += direction;
+  }
+  *rays += kSkyDirections;
+  *visible = open / all;
+  return sum * float(2 * kPi / kSkyDirections);
+}
+
+TransferEstimate EstimateTransfer(const ElementHierarchy& hierarchy, const RayScene& rayScene,
+                                  const Element& source, const Element& receiver, bool thorough) {
+  TransferEstimate estimate;
+  const bool isLight = source.kind == ElementKind::Light;
+  const bool isSky =
+      isLight && hierarchy.GetScene().lights[size_t(source.item)].type == LightType::Sky;
+  float weight = 0, visibleWeight = 0;
+  for (int k = 0; k < kSamplesPerElement; ++k) {
+    const SurfaceSample& sample = receiver.samples[size_t(k)];
+    const Vec3f horizon = Horizon(receiver, sample);
+    if (isSky) {
+      float open = 0;
+      estimate.transfer += SkyTransfer(rayScene, sample.position, horizon, &open, &estimate.rays);
+      weight += 1;
+      visibleWeight += open;
+      continue;
+    }
+    const Vec3f kernel = UnoccludedTransfer(hierarchy, source, sample.position, horizon);
+    const float size = Length(kernel);
+    if (!(size > 0)) continue;
+
+    // Visibility from this place: of the partner sample, or of all of them.
+    float visible = 1;
+    if (thorough || isLight) {
+      visible =
+          VisibleFraction(hierarchy, rayScene, source, sample.position, horizon, &estimate.rays);
+    } else {
+      Vec3f target;
+      for (int j = 0; j < kSamplesPerElement; ++j) {
+        if (!RayTarget(hierarchy, source, (k + j) % kSamplesPerElement, sample.position, horizon,
+                       &target)) {
+          continue;
+        }
+        ++estimate.rays;
+        visible = rayScene.Occluded(sample.position, target) ? 0.f : 1.f;
+        break;
+      }
+    }
+    estimate.transfer += kernel * visible;
+    weight += size;
+    visibleWeight += size * visible;
+  }
+  estimate.transfer /= float(kSamplesPerElement);
+  estimate.visibility = weight > 0 ? visibleWeight / weight : 0;
+  return estimate;
+}
+
+}  // namespace lambert

@@ -1,0 +1,197 @@
+#include "Radiosity/Core/HierarchicalRadiosity.h"
+
+#include <gtest/gtest.h>
+
+#include "Common/Core/Parallel.h"
+#include "Common/Testing/TestScenes.h"
+
+namespace lambert {
+namespace {
+
+using testing::AddBox;
+using testing::AddQuad;
+using testing::BoxMaterials;
+
+struct Solved {
+  Scene scene;
+  RadiositySolution solution;
+  SolverStatistics statistics;
+};
+
+Solved Solve(Scene scene, const HierarchicalRadiosityOptions& options) {
+  Solved solved;
+  solved.scene = std::move(scene);
+  solved.scene.mesh.Complete();
+  const ClusterTree tree = ClusterFaces(&solved.scene.mesh, solved.scene.parts);
+  HierarchicalRadiosity solver(solved.scene, tree, options);
+  solver.Run();
+  solved.solution = solver.Solution();
+  solved.statistics = solver.Statistics();
+  return solved;
+}
+
+Solved Solve(Scene scene, double error) {
+  HierarchicalRadiosityOptions options;
+  options.error = error;
+  return Solve(std::move(scene), options);
+}
+
+/// Area-weighted mean radiosity of the triangles whose normal is `n`.
+double MeanRadiosity(const RadiositySolution& solution, const Vec3f& n) {
+  double sum = 0, area = 0;
+  const TriangleMesh& mesh = solution.mesh;
+  for (int64_t t = 0; t < mesh.FaceCount(); ++t) {
+    if (Dot(mesh.FrontNormal(t), n) < 0.999f) continue;
+    double mean = 0;
+    for (const int32_t p : mesh.triangles[size_t(t)])
+      mean += double(solution.radiosity[size_t(p)].g) / 3;
+    sum += mean * mesh.Area(t);
+    area += mesh.Area(t);
+  }
+  return sum / area;
+}
+
+Scene Furnace(float rho) {
+  Scene scene;
+  AddBox(&scene.mesh, {0, 0, 0}, {1, 1, 1}, BoxMaterials(rho, 1), true);
+  testing::CompleteTables(&scene);
+  return scene;
+}
+
+// In a closed furnace every radiosity is 1 / (1 - rho). Row sums are right
+// to 1 %; interreflection multiplies their error by rho / (1 - rho).
+class FurnaceTest : public ::testing::TestWithParam<float> {};
+TEST_P(FurnaceTest, RadiosityIsExitanceOverOneMinusReflectance) {
+  const float rho = GetParam();
+  const Solved solved = Solve(Furnace(rho), 0.1);
+  const double expected = 1 / (1 - double(rho));
+  double sum = 0, area = 0;
+  for (int64_t t = 0; t < solved.solution.mesh.FaceCount(); ++t) {
+    for (const int32_t p : solved.solution.mesh.triangles[size_t(t)]) {
+      sum += double(solved.solution.radiosity[size_t(p)].g) / 3 * solved.solution.mesh.Area(t);
+    }
+    area += solved.solution.mesh.Area(t);
+  }
+  EXPECT_NEAR(area, 6, 1e-4);  // the inner side alone is modelled
+  EXPECT_NEAR(sum / area / expected, 1, 0.01 * double(rho) / (1 - double(rho)));
+}
+INSTANTIATE_TEST_SUITE_P(Reflectances, FurnaceTest, ::testing::Values(0.5f, 0.8f, 0.95f));
+
+TEST(HierarchicalRadiosity, RoomUnderABrightCeiling) {
+  // Unit cube, black ceiling of exitance 1, other faces rho = 0.5.
+  const Solved solved = Solve(testing::BoxRoom(1, 0.5f, 1), 0.1);
+  EXPECT_NEAR(MeanRadiosity(solved.solution, {0, 0, 1}), 0.15517, 0.02 * 0.15517);
+  EXPECT_NEAR(MeanRadiosity(solved.solution, {1, 0, 0}), 0.16400, 0.02 * 0.16400);
+}
+
+TEST(HierarchicalRadiosity, EnergyIsEmittedAbsorbedOrEscapes) {
+  // An open room: floor, one wall, a lamp; escape is found by rays of its own, 32768 of them: 1 %
+  // of noise.
+  Scene scene;
+  AddQuad(&scene.mesh, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, Spectrum(0.7f), Spectrum(0.f), 4, 0);
+  AddQuad(&scene.mesh, {0, 0, 0}, {0, 2, 0}, {0, 0, 2}, Spectrum(0.4f, 0.6f, 0.2f), Spectrum(0.f),
+          4, 1);
+  AddQuad(&scene.mesh, {0.8f, 0.8f, 1}, {0, 0.4f, 0}, {0.4f, 0, 0}, Spectrum(0.f), Spectrum(10.f),
+          1, 2);
+  testing::CompleteTables(&scene);
+  const SolverStatistics s = Solve(scene, 0.02).statistics;
+  for (int band = 0; band < 3; ++band) {
+    EXPECT_NEAR(s.emitted[band], 10 * 0.16f, 1e-4);
+    EXPECT_GT(s.escaped[band], 0);
+    EXPECT_NEAR((s.absorbed[band] + s.escaped[band]) / s.emitted[band], 1, 0.02);
+  }
+}
+
+TEST(HierarchicalRadiosity, TheSameForOneThreadAndTwo) {
+  HierarchicalRadiosityOptions options;
+  options.iterations = 4;
+  SetThreadCount(1);
+  const Solved one = Solve(testing::BoxRoom(1, 0.5f, 1, 4), options);
+  SetThreadCount(2);
+  const Solved two = Solve(testing::BoxRoom(1, 0.5f, 1, 4), options);
+  SetThreadCount(0);
+  ASSERT_EQ(one.solution.irradiance.size(), two.solution.irradiance.size());
+  for (size_t i = 0; i < one.solution.irradiance.size(); ++i) {
+    ASSERT_EQ(one.solution.irradiance[i], two.solution.irradiance[i]) << "point " << i;
+  }
+  EXPECT_EQ(one.statistics.rays, two.statistics.rays);
+}
+
+TEST(HierarchicalRadiosity, APointLightOverAFloor) {
+  Scene scene;
+  AddQuad(&scene.mesh, {-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, Spectrum(0.5f));
+  Light light;
+  light.position = {0, 0, 1};
+  light.intensity = Spectrum(3.f);
+  scene.lights.push_back(light);
+  testing::CompleteTables(&scene);
+  const Solved solved = Solve(scene, 0.05);
+  // At every point I cos / r^2, exactly: nothing is in the way, nothing else gives light.
+  for (size_t p = 0; p < solved.solution.irradiance.size(); ++p) {
+    const Vec3f x = solved.solution.mesh.positions[p];
+    const float r = Length(light.position - x);
+    EXPECT_NEAR(solved.solution.irradiance[p].r, 3 / (r * r * r), 0.01f * 3 / (r * r * r));
+  }
+  EXPECT_GT(solved.statistics.patchElements, 16);
+}
+
+TEST(HierarchicalRadiosity, AConstantSkyOverAnOpenFloor) {
+  Scene scene;
+  AddQuad(&scene.mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Spectrum(0.5f));
+  Light sky;
+  sky.type = LightType::Sky;
+  sky.intensity = Spectrum(2.f);
+  scene.lights.push_back(sky);
+  testing::CompleteTables(&scene);
+  const Solved solved = Solve(scene, 0.05);
+  for (const Spectrum& e : solved.solution.irradiance) EXPECT_NEAR(e.g, 2 * kPi, 0.001 * 2 * kPi);
+}
+
+TEST(HierarchicalRadiosity, SaysWhyItStopped) {
+  HierarchicalRadiosityOptions options;
+  options.iterations = 2;
+  EXPECT_EQ(Solve(Furnace(0.5f), options).statistics.stoppedBy, "iterations");
+  Scene scene = Furnace(0.5f);
+  scene.mesh.Complete();
+  const ClusterTree tree = ClusterFaces(&scene.mesh, scene.parts);
+  HierarchicalRadiosity solver(scene, tree);
+  int seen = 0;
+  solver.Run({}, [&](const IterationRecord& record) { return ++seen, record.iteration < 3; });
+  EXPECT_EQ(seen, 3);
+  EXPECT_EQ(solver.Statistics().stoppedBy, "interrupt");
+  EXPECT_FALSE(solver.Solution().irradiance.empty());
+}
+
+TEST(HierarchicalRadiosity, CancelledInTheMiddleKeepsTheLastIteration) {
+  Scene scene = testing::BoxRoom(1, 0.5f, 1);
+  scene.mesh.Complete();
+  const ClusterTree tree = ClusterFaces(&scene.mesh, scene.parts);
+  HierarchicalRadiosity solver(scene, tree);
+  int64_t links = 0;
+  bool cancel = false;
+  solver.Run([&](double, const char*) { return !cancel; },
+             [&](const IterationRecord& record) {
+               links = record.links;
+               if (record.iteration == 3) cancel = true;
+               return true;
+             });
+  EXPECT_EQ(solver.Statistics().stoppedBy, "interrupt");
+  EXPECT_EQ(solver.Statistics().Links(), links);
+}
+
+TEST(HierarchicalRadiosity, DegenerateFacesDoNoHarm) {
+  Scene scene = testing::BoxRoom(1, 0.5f, 1);
+  testing::AddTriangle(&scene.mesh, {.2f, .2f, .5f}, {.8f, .2f, .5f}, {.5f, .2f, .5f},
+                       Spectrum(.5f));
+  testing::AddTriangle(&scene.mesh, {.2f, .2f, .5f}, {.2f, .2f, .5f}, {.2f, .2f, .5f},
+                       Spectrum(.5f));
+  testing::AddTriangle(&scene.mesh, {.2f, .2f, .4f}, {.8f, .2f, .4f}, {.5f, .2006f, .4f},
+                       Spectrum(.5f));
+  testing::CompleteTables(&scene);
+  const Solved solved = Solve(scene, 0.1);
+  for (const Spectrum& e : solved.solution.irradiance) EXPECT_TRUE(e.IsFinite());
+  for (const Spectrum& b : solved.solution.radiosity) EXPECT_TRUE(b.IsFinite());
+}
+
+}  // namespace
+}  // namespace lambert
