@@ -1,41 +1,19 @@
 #include "Reference/Core/PathTracedIrradiance.h"
 
-#include <embree3/rtcore.h>
-#include <pmmintrin.h>
-#include <xmmintrin.h>
-
 #include <array>
-#include <cstring>
 #include <limits>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
 #include "Reference/Core/EmitterTree.h"
+#include "Reference/Core/ReferenceRays.h"
 
 namespace lambert {
 
 namespace {
 
-/// A place that light arrives at: a receiver, or a bounce on one side of a face.
-struct Vertex {
-  Vec3f position;
-  Vec3f normal;     ///< the irradiance is for this one
-  Vec3f geometric;  ///< only directions of its hemisphere see light
-};
-
-/// Denormal numbers count as zero while this lives; rays are several times slower over them.
-class FlushDenormals {
- public:
-  FlushDenormals() : state_(_mm_getcsr()) {
-    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-  }
-  ~FlushDenormals() { _mm_setcsr(state_); }
-
- private:
-  unsigned state_;
-};
+using Vertex = ReferenceVertex;
 
 /// Additive recurrences after the generalized golden ratio (Roberts 2018) of 2 and 3 dimensions.
 constexpr double kPlane[2] = {0.7548776662466927, 0.5698402909980532};
@@ -79,7 +57,6 @@ class ReplicateMean {
 
 struct PathTracedIrradiance::Implementation {
   explicit Implementation(const Scene& scene);
-  ~Implementation();
 
   IrradianceEstimate EstimateAt(const ReceiverPoint& point, uint64_t index,
                                 const PathTracedIrradianceOptions& options) const;
@@ -91,22 +68,15 @@ struct PathTracedIrradiance::Implementation {
   Spectrum FromAllLights(const Vertex& at) const;
   Spectrum FromOneLight(const Vertex& at, Random* random) const;
 
-  Vec3f Origin(const Vertex& at) const;
-  bool Blocked(const Vertex& at, const Vec3f& direction, float distance) const;
-  bool Closest(const Vertex& at, const Vec3f& direction, RTCRayHit* query) const;
-
   const Scene& scene;
+  ReferenceRays rays;
   EmitterTree emitters;
   Spectrum sky;  ///< radiance of all sky lights, W/(m2 sr)
   std::vector<Light> punctual;
-  RTCDevice device = nullptr;
-  RTCScene rays = nullptr;
-  float nearest = 0;  ///< a hit nearer than this does not block, m
-  float lift = 0;     ///< rays start this far above their face, against rounding alone, m
 };
 
 PathTracedIrradiance::Implementation::Implementation(const Scene& scene_)
-    : scene(scene_), emitters(scene_.mesh) {
+    : scene(scene_), rays(scene_.mesh), emitters(scene_.mesh) {
   for (const Light& light : scene.lights) {
     if (light.type == LightType::Sky) {
       sky += light.intensity;
@@ -114,74 +84,6 @@ PathTracedIrradiance::Implementation::Implementation(const Scene& scene_)
       punctual.push_back(light);
     }
   }
-  const TriangleMesh& mesh = scene.mesh;
-  const Box3f bounds = mesh.Bounds();
-  if (!bounds.IsEmpty()) {
-    const Vec3f far = Max(Max(bounds.high, -bounds.high), Max(bounds.low, -bounds.low));
-    nearest = 1e-5f * bounds.Diagonal();
-    lift = 4 * std::numeric_limits<float>::epsilon() * std::max(far.x, std::max(far.y, far.z));
-  }
-
-  device = rtcNewDevice(nullptr);
-  if (!device) throw Error("The ray tracer (Embree) could not be started on this processor.");
-  rays = rtcNewScene(device);
-  rtcSetSceneFlags(rays, RTC_SCENE_FLAG_ROBUST);
-  if (mesh.FaceCount() > 0) {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* points = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                           sizeof(Vec3f), mesh.positions.size());
-    void* faces = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                          3 * sizeof(int32_t), mesh.triangles.size());
-    std::memcpy(points, mesh.positions.data(), mesh.positions.size() * sizeof(Vec3f));
-    std::memcpy(faces, mesh.triangles.data(), mesh.triangles.size() * 3 * sizeof(int32_t));
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(rays, geometry);
-    rtcReleaseGeometry(geometry);
-  }
-  rtcCommitScene(rays);
-}
-
-PathTracedIrradiance::Implementation::~Implementation() {
-  if (rays) rtcReleaseScene(rays);
-  if (device) rtcReleaseDevice(device);
-}
-
-// Rays.
-
-Vec3f PathTracedIrradiance::Implementation::Origin(const Vertex& at) const {
-  return at.position + at.geometric * lift;
-}
-
-namespace {
-RTCRay MakeRay(const Vec3f& from, const Vec3f& direction, float tnear, float tfar) {
-  RTCRay ray{};
-  ray.org_x = from.x, ray.org_y = from.y, ray.org_z = from.z;
-  ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
-  ray.tnear = tnear, ray.tfar = tfar;
-  ray.mask = ~0u;
-  return ray;
-}
-}  // namespace
-
-bool PathTracedIrradiance::Implementation::Blocked(const Vertex& at, const Vec3f& direction,
-                                                   float distance) const {
-  const float end = distance - nearest;
-  if (!(end > nearest)) return false;
-  RTCRay ray = MakeRay(Origin(at), direction, nearest, end);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(rays, &context, &ray);
-  return ray.tfar < 0;
-}
-
-bool PathTracedIrradiance::Implementation::Closest(const Vertex& at, const Vec3f& direction,
-                                                   RTCRayHit* query) const {
-  query->ray = MakeRay(Origin(at), direction, nearest, std::numeric_limits<float>::infinity());
-  query->hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(rays, &context, query);
-  return query->hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
 // Light straight from its sources.
@@ -192,13 +94,13 @@ Spectrum PathTracedIrradiance::Implementation::FromEmitters(const Vertex& at,
                                                             const double u[3]) const {
   if (emitters.IsEmpty()) return {};
   const EmitterTree::Sample sample = emitters.Pick(at.position, at.normal, u);
-  if (sample.face < 0 || !(sample.density > 0) || sample.distance < nearest) return {};
+  if (sample.face < 0 || !(sample.density > 0) || sample.distance < rays.Nearest()) return {};
   const float cosine = Dot(at.normal, sample.direction);
   if (cosine <= 0 || Dot(at.geometric, sample.direction) <= 0) return {};
   const Vec3f toward = scene.mesh.VectorArea(sample.face);
   const Side side = Dot(toward, sample.direction) < 0 ? kFront : kBack;
   if (!scene.mesh.Emits(sample.face, side)) return {};
-  if (Blocked(at, sample.direction, sample.distance)) return {};
+  if (rays.Blocked(at, sample.direction, sample.distance)) return {};
   const float weight = PowerHeuristic(sample.density, cosine / float(kPi));
   const Spectrum radiance = scene.mesh.emittance[size_t(sample.face)] / float(kPi);
   return radiance * (cosine * weight / sample.density);
@@ -226,7 +128,7 @@ Spectrum PathTracedIrradiance::Implementation::FromLight(const Vertex& at,
   Vec3f direction;
   float distance = 0;
   const Spectrum irradiance = Unshadowed(at, light, &direction, &distance);
-  if (irradiance.IsBlack() || Blocked(at, direction, distance)) return {};
+  if (irradiance.IsBlack() || rays.Blocked(at, direction, distance)) return {};
   return irradiance;
 }
 
@@ -271,33 +173,26 @@ Spectrum PathTracedIrradiance::Implementation::Path(const Vertex& receiver, cons
     const Vec3f direction = s * local.x + t * local.y + at.normal * local.z;
     if (Dot(direction, at.geometric) <= 0) return sum;
 
-    // It escapes to the sky, or meets a side of a face.
-    RTCRayHit query;
-    if (!Closest(at, direction, &query)) return sum + throughput * sky * float(kPi);
-    const int32_t face = int32_t(query.hit.primID);
-    const Vec3f front = mesh.FrontNormal(face);
-    const Side side = Dot(front, direction) < 0 ? kFront : kBack;
-
-    // What that side emits, weighted against the choice of emitters.
-    if (mesh.Emits(face, side)) {
+    // It escapes to the sky, or meets a side of a face. What that emits is weighted against the
+    // choice of emitters.
+    ReferenceHit hit;
+    if (!rays.Closest(at, direction, &hit)) return sum + throughput * sky * float(kPi);
+    if (mesh.Emits(hit.face, hit.side)) {
       const float density =
-          emitters.Density(at.position, at.normal, face, direction, query.ray.tfar);
+          emitters.Density(at.position, at.normal, hit.face, direction, hit.distance);
       const float weight = PowerHeuristic(local.z / float(kPi), density);
-      sum += throughput * mesh.emittance[size_t(face)] * weight;
+      sum += throughput * mesh.emittance[size_t(hit.face)] * weight;
     }
     if (depth == maximumDepth) return sum;
 
     // Diffuse reflection; roulette keeps the throughput near one half.
-    throughput = throughput * mesh.reflectance[size_t(face)];
+    throughput = throughput * mesh.reflectance[size_t(hit.face)];
     const float survival = std::min(1.f, 2 * throughput.MaxBand());
     if (!(survival > 0) || random->Uniform() >= survival) return sum;
     throughput *= 1 / survival;
 
     // The next receiver is the place that was hit.
-    const float b1 = query.hit.u, b2 = query.hit.v;
-    at.position = mesh.Corner(face, 0) * (1 - b1 - b2) + mesh.Corner(face, 1) * b1 +
-                  mesh.Corner(face, 2) * b2;
-    at.normal = at.geometric = side == kFront ? front : -front;
+    at = hit.vertex;
     const double choice[3] = {random->UniformDouble(), random->UniformDouble(),
                               random->UniformDouble()};
     sum += throughput * (FromEmitters(at, choice) + FromOneLight(at, random));
