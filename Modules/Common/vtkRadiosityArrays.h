@@ -1,6 +1,7 @@
 /**
  * @class vtkRadiosityArrays
- * @brief Names of the arrays that flow between the stages; see Documentation/DataModel.md for units and owners.
+ * @brief Names of the arrays that flow between the stages; see Documentation/DataModel.md for units
+ * and owners.
  */
 #ifndef vtkRadiosityArrays_h
 #define vtkRadiosityArrays_h
@@ -8,58 +9,59 @@
 #include "lambertCommonModule.h"
 #include "vtkObject.h"
 
-class LAMBERTCOMMON_EXPORT vtkRadiosityArrays : public vtkObject
-{
-public:
+class LAMBERTCOMMON_EXPORT vtkRadiosityArrays : public vtkObject {
+ public:
   static vtkRadiosityArrays* New();
   vtkTypeMacro(vtkRadiosityArrays, vtkObject);
 
   ///@{ Cell arrays.
-  static const char* Reflectance() { return "Reflectance"; }   ///< 3 float, [0, 0.98]
-  static const char* Emittance() { return "Emittance"; }       ///< 3 float, exitance W/m2
-  static const char* FaceFlags() { return "FaceFlags"; }       ///< unsigned char, bits: 1 emits from the front, 2 from the back, 4 rewound
-  static const char* SurfaceId() { return "SurfaceId"; }       ///< int
-  static const char* MaterialId() { return "MaterialId"; }     ///< int
-  static const char* PartId() { return "PartId"; }             ///< int
-  static const char* SourceCellId() { return "SourceCellId"; } ///< vtkIdType
-  static const char* InputFaceId() { return "InputFaceId"; }   ///< vtkIdType, refined mesh only
-  static const char* Side() { return "Side"; }                 ///< unsigned char, 0 front, 1 back
-  static const char* ClusterId() { return "ClusterId"; }       ///< int
-  static const char* LeafId() { return "LeafId"; }             ///< vtkIdType, leaf element of the hierarchy, refined mesh only
+  static const char* Reflectance() { return "Reflectance"; }  ///< 3 float, [0, 0.98]
+  static const char* Emittance() { return "Emittance"; }      ///< 3 float, exitance W/m2
+  /// Bits 1 emits in front, 2 behind, 4 rewound
+  static const char* FaceFlags() { return "FaceFlags"; }
+  static const char* SurfaceId() { return "SurfaceId"; }        ///< int
+  static const char* MaterialId() { return "MaterialId"; }      ///< int
+  static const char* PartId() { return "PartId"; }              ///< int
+  static const char* SourceCellId() { return "SourceCellId"; }  ///< vtkIdType
+  static const char* InputFaceId() { return "InputFaceId"; }    ///< vtkIdType, refined mesh
+  static const char* Side() { return "Side"; }                  ///< unsigned char, 0 front, 1 back
+  static const char* ClusterId() { return "ClusterId"; }        ///< int
+  static const char* LeafId() { return "LeafId"; }  ///< vtkIdType, leaf element, refined mesh
   ///@}
 
   ///@{ Point arrays.
-  static const char* Irradiance() { return "Irradiance"; }             ///< 3 float, W/m2
-  static const char* Radiosity() { return "Radiosity"; }               ///< 3 float, W/m2
-  static const char* IrradianceVector() { return "IrradianceVector"; } ///< 9 float, W/m2
+  static const char* Irradiance() { return "Irradiance"; }              ///< 3 float, W/m2
+  static const char* Radiosity() { return "Radiosity"; }                ///< 3 float, W/m2
+  static const char* IrradianceVector() { return "IrradianceVector"; }  ///< 9 float, W/m2
   ///@}
 
   ///@{ Tables in the field data, a tuple a row: materials, parts, lights; and the camera.
-  static const char* MaterialName() { return "Material.Name"; }                       ///< string
-  static const char* MaterialReflectance() { return "Material.Reflectance"; }         ///< 3 float
-  static const char* MaterialEmittance() { return "Material.Emittance"; }             ///< 3 float, exitance W/m2
-  static const char* MaterialTwoSidedEmitter() { return "Material.TwoSidedEmitter"; } ///< unsigned char, 0 or 1
-  static const char* PartName() { return "Part.Name"; }                   ///< string
-  static const char* PartSource() { return "Part.Source"; }               ///< string, file or actor
-  static const char* PartMeshId() { return "Part.MeshId"; }               ///< int, parts of one mesh are instances
-  static const char* PartObjectToWorld() { return "Part.ObjectToWorld"; } ///< 16 double, row-major, to metres
-  static const char* LightName() { return "Light.Name"; }                 ///< string
-  static const char* LightType() { return "Light.Type"; }                 ///< int, 0 point, 1 spot, 2 directional, 3 sky
-  static const char* LightPosition() { return "Light.Position"; }         ///< 3 float, m
-  static const char* LightDirection() { return "Light.Direction"; }       ///< 3 float, unit, the way the light travels
-  static const char* LightIntensity() { return "Light.Intensity"; }       ///< 3 float, W/sr | directional W/m2 | sky W/(m2 sr)
-  static const char* LightConeAngles() { return "Light.ConeAngles"; }     ///< 2 float, inner and outer half-angle, radians
-  static const char* CameraPosition() { return "Camera.Position"; }       ///< 3 double, m
-  static const char* CameraFocalPoint() { return "Camera.FocalPoint"; }   ///< 3 double, m
-  static const char* CameraViewUp() { return "Camera.ViewUp"; }           ///< 3 double
-  static const char* CameraViewAngle() { return "Camera.ViewAngle"; }     ///< double, vertical field of view in degrees
+  static const char* MaterialName() { return "Material.Name"; }                ///< string
+  static const char* MaterialReflectance() { return "Material.Reflectance"; }  ///< 3 float
+  static const char* MaterialEmittance() { return "Material.Emittance"; }      ///< 3 float, W/m2
+  static const char* MaterialTwoSidedEmitter() { return "Material.TwoSidedEmitter"; }  ///< 0 or 1
+  static const char* PartName() { return "Part.Name"; }                                ///< string
+  static const char* PartSource() { return "Part.Source"; }  ///< string, file or actor
+  static const char* PartMeshId() { return "Part.MeshId"; }  ///< int, the same for instances
+  static const char* PartObjectToWorld() { return "Part.ObjectToWorld"; }  ///< 16 double, row-major
+  static const char* LightName() { return "Light.Name"; }                  ///< string
+  static const char* LightType() { return "Light.Type"; }  ///< point, spot, directional, sky
+  static const char* LightPosition() { return "Light.Position"; }        ///< 3 float, m
+  static const char* LightDirection() { return "Light.Direction"; }      ///< 3 float, unit
+  static const char* LightIntensity() { return "Light.Intensity"; }      ///< W/sr, W/m2, W/(m2 sr)
+  static const char* LightConeAngles() { return "Light.ConeAngles"; }    ///< 2 float, radians
+  static const char* CameraPosition() { return "Camera.Position"; }      ///< 3 double, m
+  static const char* CameraFocalPoint() { return "Camera.FocalPoint"; }  ///< 3 double, m
+  static const char* CameraViewUp() { return "Camera.ViewUp"; }          ///< 3 double
+  /// Double, vertical, degrees
+  static const char* CameraViewAngle() { return "Camera.ViewAngle"; }
   ///@}
 
-protected:
+ protected:
   vtkRadiosityArrays() = default;
   ~vtkRadiosityArrays() override = default;
 
-private:
+ private:
   vtkRadiosityArrays(const vtkRadiosityArrays&) = delete;
   void operator=(const vtkRadiosityArrays&) = delete;
 };

@@ -18,36 +18,29 @@
 #include <cstring>
 #include <limits>
 
-namespace lambert
-{
-namespace
-{
+namespace lambert {
+namespace {
 /// Values of a data array of any type as `components` floats a tuple; empty where there is none.
 template <class T>
-std::vector<T> ReadTuples(vtkDataArray* array, int components, const char* name)
-{
+std::vector<T> ReadTuples(vtkDataArray* array, int components, const char* name) {
   std::vector<T> values;
-  if (!array)
-  {
+  if (!array) {
     return values;
   }
-  if (array->GetNumberOfComponents() != components)
-  {
+  if (array->GetNumberOfComponents() != components) {
     throw Error(std::string("The array ") + name + " has " +
-      std::to_string(array->GetNumberOfComponents()) + " components; it needs " +
-      std::to_string(components) + ".");
+                std::to_string(array->GetNumberOfComponents()) + " components; it needs " +
+                std::to_string(components) + ".");
   }
   values.resize(static_cast<size_t>(array->GetNumberOfTuples()));
-  if (auto* floats = vtkFloatArray::FastDownCast(array); floats && !values.empty())
-  {
-    std::memcpy(static_cast<void*>(values.data()), floats->GetPointer(0), values.size() * sizeof(T));
+  if (auto* floats = vtkFloatArray::FastDownCast(array); floats && !values.empty()) {
+    std::memcpy(static_cast<void*>(values.data()), floats->GetPointer(0),
+                values.size() * sizeof(T));
     return values;
   }
-  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
-  {
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) {
     float* tuple = reinterpret_cast<float*>(&values[static_cast<size_t>(i)]);
-    for (int c = 0; c < components; ++c)
-    {
+    for (int c = 0; c < components; ++c) {
       tuple[c] = static_cast<float>(array->GetComponent(i, c));
     }
   }
@@ -55,14 +48,11 @@ std::vector<T> ReadTuples(vtkDataArray* array, int components, const char* name)
 }
 
 template <class T>
-std::vector<T> ReadScalars(vtkDataArray* array)
-{
+std::vector<T> ReadScalars(vtkDataArray* array) {
   std::vector<T> values;
-  if (array)
-  {
+  if (array) {
     values.resize(static_cast<size_t>(array->GetNumberOfTuples()));
-    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
-    {
+    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) {
       values[static_cast<size_t>(i)] = static_cast<T>(array->GetComponent(i, 0));
     }
   }
@@ -70,10 +60,8 @@ std::vector<T> ReadScalars(vtkDataArray* array)
 }
 
 template <class Array, class T>
-void WriteScalars(vtkDataSetAttributes* data, const char* name, const std::vector<T>& values)
-{
-  if (values.empty())
-  {
+void WriteScalars(vtkDataSetAttributes* data, const char* name, const std::vector<T>& values) {
+  if (values.empty()) {
     return;
   }
   vtkNew<Array> array;
@@ -84,54 +72,44 @@ void WriteScalars(vtkDataSetAttributes* data, const char* name, const std::vecto
 }
 
 template <class T>
-vtkSmartPointer<vtkFloatArray> FloatArray(
-  const char* name, int components, const std::vector<T>& values)
-{
+vtkSmartPointer<vtkFloatArray> FloatArray(const char* name, int components,
+                                          const std::vector<T>& values) {
   auto array = vtkSmartPointer<vtkFloatArray>::New();
   array->SetName(name);
   array->SetNumberOfComponents(components);
   array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-  if (!values.empty())
-  {
+  if (!values.empty()) {
     std::memcpy(array->GetPointer(0), values.data(), values.size() * sizeof(T));
   }
   return array;
 }
 
 /// Reflectance is clamped to [0, 0.98]; emittance that makes no sense is an error.
-void BringIntoRange(TriangleMesh* mesh)
-{
-  for (Spectrum& reflectance : mesh->reflectance)
-  {
-    for (int band = 0; band < 3; ++band)
-    {
+void BringIntoRange(TriangleMesh* mesh) {
+  for (Spectrum& reflectance : mesh->reflectance) {
+    for (int band = 0; band < 3; ++band) {
       reflectance[band] = std::min(kMaximumReflectance, std::max(0.f, reflectance[band]));
     }
   }
-  for (size_t face = 0; face < mesh->emittance.size(); ++face)
-  {
+  for (size_t face = 0; face < mesh->emittance.size(); ++face) {
     const Spectrum& emittance = mesh->emittance[face];
-    if (!emittance.IsFinite() || std::min({ emittance.r, emittance.g, emittance.b }) < 0)
-    {
+    if (!emittance.IsFinite() || std::min({emittance.r, emittance.g, emittance.b}) < 0) {
       throw Error("Cell " + std::to_string(face) +
-        " has an emittance that is negative or not a finite number; repair the input.");
+                  " has an emittance that is negative or not a finite number; repair the input.");
     }
   }
 }
-}
+}  // namespace
 
-TriangleMesh TriangleMeshFromPolyData(vtkPolyData* input)
-{
+TriangleMesh TriangleMeshFromPolyData(vtkPolyData* input) {
   TriangleMesh mesh;
-  if (!input || !input->GetPoints())
-  {
+  if (!input || !input->GetPoints()) {
     return mesh;
   }
 
   // Points.
   vtkPointData* pointData = input->GetPointData();
-  if (input->GetNumberOfPoints() > std::numeric_limits<int32_t>::max())
-  {
+  if (input->GetNumberOfPoints() > std::numeric_limits<int32_t>::max()) {
     throw Error("The data has more than 2^31 points; split it.");
   }
   mesh.positions = ReadTuples<Vec3f>(input->GetPoints()->GetData(), 3, "Points");
@@ -140,32 +118,30 @@ TriangleMesh TriangleMeshFromPolyData(vtkPolyData* input)
 
   // Faces.
   vtkCellArray* polys = input->GetPolys();
-  if (input->GetNumberOfCells() != polys->GetNumberOfCells())
-  {
-    throw Error("The data holds vertices, lines or strips beside its polygons; run vtkTriangleFilter "
-                "and keep its polygons only.");
+  if (input->GetNumberOfCells() != polys->GetNumberOfCells()) {
+    throw Error(
+        "The data holds vertices, lines or strips beside its polygons; run vtkTriangleFilter "
+        "and keep its polygons only.");
   }
   mesh.triangles.reserve(static_cast<size_t>(polys->GetNumberOfCells()));
   auto cell = vtk::TakeSmartPointer(polys->NewIterator());
-  for (cell->GoToFirstCell(); !cell->IsDoneWithTraversal(); cell->GoToNextCell())
-  {
+  for (cell->GoToFirstCell(); !cell->IsDoneWithTraversal(); cell->GoToNextCell()) {
     vtkIdType count = 0;
     const vtkIdType* ids = nullptr;
     cell->GetCurrentCell(count, ids);
-    if (count != 3)
-    {
+    if (count != 3) {
       throw Error("Cell " + std::to_string(cell->GetCurrentCellId()) + " has " +
-        std::to_string(count) + " points; run vtkTriangleFilter first.");
+                  std::to_string(count) + " points; run vtkTriangleFilter first.");
     }
-    mesh.triangles.push_back({ static_cast<int32_t>(ids[0]), static_cast<int32_t>(ids[1]),
-      static_cast<int32_t>(ids[2]) });
+    mesh.triangles.push_back(
+        {static_cast<int32_t>(ids[0]), static_cast<int32_t>(ids[1]), static_cast<int32_t>(ids[2])});
   }
   vtkCellData* cellData = input->GetCellData();
   using Names = vtkRadiosityArrays;
-  mesh.reflectance = ReadTuples<Spectrum>(
-    cellData->GetArray(Names::Reflectance()), 3, Names::Reflectance());
-  mesh.emittance = ReadTuples<Spectrum>(
-    cellData->GetArray(Names::Emittance()), 3, Names::Emittance());
+  mesh.reflectance =
+      ReadTuples<Spectrum>(cellData->GetArray(Names::Reflectance()), 3, Names::Reflectance());
+  mesh.emittance =
+      ReadTuples<Spectrum>(cellData->GetArray(Names::Emittance()), 3, Names::Emittance());
   mesh.faceFlags = ReadScalars<uint8_t>(cellData->GetArray(Names::FaceFlags()));
   mesh.materialId = ReadScalars<int32_t>(cellData->GetArray(Names::MaterialId()));
   mesh.partId = ReadScalars<int32_t>(cellData->GetArray(Names::PartId()));
@@ -176,20 +152,17 @@ TriangleMesh TriangleMeshFromPolyData(vtkPolyData* input)
   return mesh;
 }
 
-void PolyDataFromTriangleMesh(const TriangleMesh& mesh, vtkPolyData* output)
-{
+void PolyDataFromTriangleMesh(const TriangleMesh& mesh, vtkPolyData* output) {
   output->Initialize();
 
   // Points.
   vtkNew<vtkPoints> points;
   points->SetData(FloatArray("Points", 3, mesh.positions));
   output->SetPoints(points);
-  if (!mesh.normals.empty())
-  {
+  if (!mesh.normals.empty()) {
     output->GetPointData()->SetNormals(FloatArray("Normals", 3, mesh.normals));
   }
-  if (!mesh.uvs.empty())
-  {
+  if (!mesh.uvs.empty()) {
     output->GetPointData()->SetTCoords(FloatArray("TCoords", 2, mesh.uvs));
   }
 
@@ -198,16 +171,14 @@ void PolyDataFromTriangleMesh(const TriangleMesh& mesh, vtkPolyData* output)
   const vtkIdType faces = mesh.FaceCount();
   offsets->SetNumberOfValues(faces + 1);
   connectivity->SetNumberOfValues(3 * faces);
-  for (vtkIdType face = 0; face <= faces; ++face)
-  {
+  for (vtkIdType face = 0; face <= faces; ++face) {
     offsets->SetValue(face, 3 * face);
   }
-  for (vtkIdType face = 0; face < faces; ++face)
-  {
-    for (int corner = 0; corner < 3; ++corner)
-    {
+  for (vtkIdType face = 0; face < faces; ++face) {
+    for (int corner = 0; corner < 3; ++corner) {
       connectivity->SetValue(
-        3 * face + corner, mesh.triangles[static_cast<size_t>(face)][static_cast<size_t>(corner)]);
+          3 * face + corner,
+          mesh.triangles[static_cast<size_t>(face)][static_cast<size_t>(corner)]);
     }
   }
   vtkNew<vtkCellArray> polys;
@@ -217,12 +188,10 @@ void PolyDataFromTriangleMesh(const TriangleMesh& mesh, vtkPolyData* output)
   // What light needs to know of each face.
   vtkCellData* cellData = output->GetCellData();
   using Names = vtkRadiosityArrays;
-  if (!mesh.reflectance.empty())
-  {
+  if (!mesh.reflectance.empty()) {
     cellData->AddArray(FloatArray(Names::Reflectance(), 3, mesh.reflectance));
   }
-  if (!mesh.emittance.empty())
-  {
+  if (!mesh.emittance.empty()) {
     cellData->AddArray(FloatArray(Names::Emittance(), 3, mesh.emittance));
   }
   WriteScalars<vtkUnsignedCharArray>(cellData, Names::FaceFlags(), mesh.faceFlags);
@@ -231,4 +200,4 @@ void PolyDataFromTriangleMesh(const TriangleMesh& mesh, vtkPolyData* output)
   WriteScalars<vtkIntArray>(cellData, Names::SurfaceId(), mesh.surfaceId);
   WriteScalars<vtkIdTypeArray>(cellData, Names::SourceCellId(), mesh.sourceCellId);
 }
-}
+}  // namespace lambert

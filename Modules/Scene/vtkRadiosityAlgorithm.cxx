@@ -4,16 +4,13 @@
 #include "vtkInformation.h"
 #include "vtkTable.h"
 
-vtkRadiosityAlgorithm::vtkRadiosityAlgorithm()
-{
+vtkRadiosityAlgorithm::vtkRadiosityAlgorithm() {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(3);
 }
 
-int vtkRadiosityAlgorithm::FillInputPortInformation(int port, vtkInformation* information)
-{
-  if (port == 0)
-  {
+int vtkRadiosityAlgorithm::FillInputPortInformation(int port, vtkInformation* information) {
+  if (port == 0) {
     return this->Superclass::FillInputPortInformation(port, information);
   }
   information->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkTable");
@@ -21,13 +18,11 @@ int vtkRadiosityAlgorithm::FillInputPortInformation(int port, vtkInformation* in
   return 1;
 }
 
-int vtkRadiosityAlgorithm::FillOutputPortInformation(int port, vtkInformation* information)
-{
+int vtkRadiosityAlgorithm::FillOutputPortInformation(int port, vtkInformation* information) {
   information->Set(vtkDataObject::DATA_TYPE_NAME(), port == 1 ? "vtkTable" : "vtkPolyData");
   return 1;
 }
 
-void vtkRadiosityAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
-{
+void vtkRadiosityAlgorithm::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
 }

@@ -2,11 +2,11 @@
  * @class vtkRadiosityAlgorithm
  * @brief The contract of every radiosity method.
  *
- * Input port 0: vtkPolyData of triangles in world space, with the arrays of vtkRadiosityArrays that it has.
- * Input port 1, optional: the cluster tree, a vtkTable as vtkFaceClustering makes it.
- * Output port 0: vtkPolyData, the refined mesh with `Irradiance` and `Radiosity` (W/m2) at its points.
- * Output port 1: vtkTable, the convergence history, a row an iteration.
- * Output port 2: vtkPolyData, the input with its own points and cells plus `Irradiance` and `Radiosity`.
+ * Input port 0: vtkPolyData of triangles in world space, with the arrays of vtkRadiosityArrays that
+ * it has. Input port 1, optional: the cluster tree, a vtkTable as vtkFaceClustering makes it.
+ * Output port 0: vtkPolyData, the refined mesh with `Irradiance` and `Radiosity` (W/m2) at its
+ * points. Output port 1: vtkTable, the convergence history, a row an iteration. Output port 2:
+ * vtkPolyData, the input with its own points and cells plus `Irradiance` and `Radiosity`.
  */
 #ifndef vtkRadiosityAlgorithm_h
 #define vtkRadiosityAlgorithm_h
@@ -14,20 +14,19 @@
 #include "lambertSceneModule.h"
 #include "vtkPolyDataAlgorithm.h"
 
-class LAMBERTSCENE_EXPORT vtkRadiosityAlgorithm : public vtkPolyDataAlgorithm
-{
-public:
+class LAMBERTSCENE_EXPORT vtkRadiosityAlgorithm : public vtkPolyDataAlgorithm {
+ public:
   vtkTypeMacro(vtkRadiosityAlgorithm, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-protected:
+ protected:
   vtkRadiosityAlgorithm();
   ~vtkRadiosityAlgorithm() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* information) override;
   int FillOutputPortInformation(int port, vtkInformation* information) override;
 
-private:
+ private:
   vtkRadiosityAlgorithm(const vtkRadiosityAlgorithm&) = delete;
   void operator=(const vtkRadiosityAlgorithm&) = delete;
 };

@@ -11,8 +11,7 @@
 
 #include <algorithm>
 
-struct vtkRadiositySceneReader::Settings
-{
+struct vtkRadiositySceneReader::Settings {
   std::vector<std::string> FileNames, MaterialSettings;
   lambert::SceneReaderOptions Reader;
   lambert::CleaningOptions Cleaning;
@@ -21,12 +20,9 @@ struct vtkRadiositySceneReader::Settings
 
 vtkStandardNewMacro(vtkRadiositySceneReader);
 
-vtkRadiositySceneReader::vtkRadiositySceneReader()
-  : Options(std::make_unique<Settings>())
-{
+vtkRadiositySceneReader::vtkRadiositySceneReader() : Options(std::make_unique<Settings>()) {
   this->SetNumberOfInputPorts(0);
-  for (int band = 0; band < 3; ++band)
-  {
+  for (int band = 0; band < 3; ++band) {
     this->DefaultReflectance[band] = this->Options->Reader.defaultReflectance[band];
   }
 }
@@ -35,15 +31,13 @@ vtkRadiositySceneReader::~vtkRadiositySceneReader() = default;
 
 //------------------------------------------------------------------------------
 // Options of the algorithms, forwarded.
-#define LAMBERT_FORWARD_OPTION(name, type, option)                                                 \
-  void vtkRadiositySceneReader::Set##name(type value)                                              \
-  {                                                                                                \
-    if (this->Options->option != value)                                                            \
-    {                                                                                              \
-      this->Options->option = value;                                                               \
-      this->Modified();                                                                            \
-    }                                                                                              \
-  }                                                                                                \
+#define LAMBERT_FORWARD_OPTION(name, type, option)      \
+  void vtkRadiositySceneReader::Set##name(type value) { \
+    if (this->Options->option != value) {               \
+      this->Options->option = value;                    \
+      this->Modified();                                 \
+    }                                                   \
+  }                                                     \
   type vtkRadiositySceneReader::Get##name() { return this->Options->option; }
 
 LAMBERT_FORWARD_OPTION(MetresPerUnit, double, Reader.metresPerUnit)
@@ -59,91 +53,71 @@ LAMBERT_FORWARD_OPTION(FeatureAngle, double, Cleaning.featureAngle)
 #undef LAMBERT_FORWARD_OPTION
 
 //------------------------------------------------------------------------------
-void vtkRadiositySceneReader::SetFileName(const std::string& name)
-{
-  if (this->Options->FileNames != std::vector<std::string>{ name })
-  {
-    this->Options->FileNames = { name };
+void vtkRadiositySceneReader::SetFileName(const std::string& name) {
+  if (this->Options->FileNames != std::vector<std::string>{name}) {
+    this->Options->FileNames = {name};
     this->Modified();
   }
 }
 
-std::string vtkRadiositySceneReader::GetFileName()
-{
-  return this->GetFileName(0);
-}
+std::string vtkRadiositySceneReader::GetFileName() { return this->GetFileName(0); }
 
-void vtkRadiositySceneReader::AddFileName(const std::string& name)
-{
+void vtkRadiositySceneReader::AddFileName(const std::string& name) {
   this->Options->FileNames.push_back(name);
   this->Modified();
 }
 
-void vtkRadiositySceneReader::ClearFileNames()
-{
+void vtkRadiositySceneReader::ClearFileNames() {
   this->Options->FileNames.clear();
   this->Modified();
 }
 
-int vtkRadiositySceneReader::GetNumberOfFileNames()
-{
+int vtkRadiositySceneReader::GetNumberOfFileNames() {
   return static_cast<int>(this->Options->FileNames.size());
 }
 
-std::string vtkRadiositySceneReader::GetFileName(int index)
-{
+std::string vtkRadiositySceneReader::GetFileName(int index) {
   const bool given = index >= 0 && index < this->GetNumberOfFileNames();
   return given ? this->Options->FileNames[static_cast<size_t>(index)] : std::string();
 }
 
-void vtkRadiositySceneReader::AddMaterialSetting(const std::string& setting)
-{
+void vtkRadiositySceneReader::AddMaterialSetting(const std::string& setting) {
   this->Options->MaterialSettings.push_back(setting);
   this->Modified();
 }
 
-void vtkRadiositySceneReader::ClearMaterialSettings()
-{
+void vtkRadiositySceneReader::ClearMaterialSettings() {
   this->Options->MaterialSettings.clear();
   this->Modified();
 }
 
-int vtkRadiositySceneReader::GetNumberOfMaterialSettings()
-{
+int vtkRadiositySceneReader::GetNumberOfMaterialSettings() {
   return static_cast<int>(this->Options->MaterialSettings.size());
 }
 
-std::string vtkRadiositySceneReader::GetReportJson()
-{
-  return this->Options->ReportJson;
-}
+std::string vtkRadiositySceneReader::GetReportJson() { return this->Options->ReportJson; }
 
 //------------------------------------------------------------------------------
-int vtkRadiositySceneReader::RequestData(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
-{
-  const auto spectrum = [](const double rgb[3])
-  {
-    return lambert::Spectrum(
-      static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2]));
+int vtkRadiositySceneReader::RequestData(vtkInformation*, vtkInformationVector**,
+                                         vtkInformationVector* outputVector) {
+  const auto spectrum = [](const double rgb[3]) {
+    return lambert::Spectrum(static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
+                             static_cast<float>(rgb[2]));
   };
   Settings& options = *this->Options;
   options.Reader.defaultReflectance = spectrum(this->DefaultReflectance);
   options.ReportJson.clear();
-  try
-  {
+  try {
     lambert::ReadReport read;
     lambert::CleaningReport cleaning;
     lambert::Scene scene = lambert::LoadScene(options.FileNames, options.Reader, options.Cleaning,
-      options.MaterialSettings, &read, &cleaning,
-      [this](double fraction, const char* stage)
-      {
-        this->SetProgressText(stage);
-        this->UpdateProgress(fraction);
-        return this->GetAbortExecute() == 0;
-      });
-    if (!spectrum(this->Sky).IsBlack())
-    {
+                                              options.MaterialSettings, &read, &cleaning,
+                                              [this](double fraction, const char* stage) {
+                                                this->SetProgressText(stage);
+                                                this->UpdateProgress(fraction);
+                                                return this->GetAbortExecute() == 0;
+                                              });
+    if (!spectrum(this->Sky).IsBlack()) {
       lambert::Light sky;
       sky.type = lambert::LightType::Sky;
       sky.name = "sky";
@@ -152,24 +126,18 @@ int vtkRadiositySceneReader::RequestData(
     }
     lambert::PolyDataFromScene(scene, vtkPolyData::GetData(outputVector));
     options.ReportJson = lambert::SceneReportJson(read, cleaning);
-  }
-  catch (const lambert::Cancelled&)
-  {
+  } catch (const lambert::Cancelled&) {
     return 1;
-  }
-  catch (const lambert::Error& error)
-  {
+  } catch (const lambert::Error& error) {
     vtkErrorMacro(<< error.what());
     return 0;
   }
   return 1;
 }
 
-void vtkRadiositySceneReader::PrintSelf(ostream& os, vtkIndent indent)
-{
+void vtkRadiositySceneReader::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
-  for (const std::string& name : this->Options->FileNames)
-  {
+  for (const std::string& name : this->Options->FileNames) {
     os << indent << "FileName: " << name << "\n";
   }
   os << indent << "MetresPerUnit: " << this->GetMetresPerUnit() << "\n";

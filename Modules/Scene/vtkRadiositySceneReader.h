@@ -2,10 +2,11 @@
  * @class vtkRadiositySceneReader
  * @brief Reads a lit scene from files, cleans it up and delivers it as one vtkPolyData.
  *
- * OBJ+MTL, glTF/GLB, PLY, STL and what else Assimp knows, and VTP. The output is triangles in world space, in metres, with
- * the cell and point arrays of vtkRadiosityArrays; materials, parts, lights and the camera lie in its field data.
- * What was read and what was changed is told by GetReportJson(). An unreadable file and a scene without a triangle
- * that has area end in one error message.
+ * OBJ+MTL, glTF/GLB, PLY, STL and what else Assimp knows, and VTP. The output is triangles in world
+ * space, in metres, with the cell and point arrays of vtkRadiosityArrays; materials, parts, lights
+ * and the camera lie in its field data. What was read and what was changed is told by
+ * GetReportJson(). An unreadable file and a scene without a triangle that has area end in one error
+ * message.
  */
 #ifndef vtkRadiositySceneReader_h
 #define vtkRadiositySceneReader_h
@@ -13,12 +14,11 @@
 #include "lambertSceneModule.h"
 #include "vtkPolyDataAlgorithm.h"
 
-#include <memory> // for the options
-#include <string> // for names
+#include <memory>  // for the options
+#include <string>  // for names
 
-class LAMBERTSCENE_EXPORT vtkRadiositySceneReader : public vtkPolyDataAlgorithm
-{
-public:
+class LAMBERTSCENE_EXPORT vtkRadiositySceneReader : public vtkPolyDataAlgorithm {
+ public:
   static vtkRadiositySceneReader* New();
   vtkTypeMacro(vtkRadiositySceneReader, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
@@ -45,7 +45,8 @@ public:
   bool GetTwoSidedEmitters();
   vtkBooleanMacro(TwoSidedEmitters, bool);
   ///@}
-  ///@{ Transparent materials block and reflect; default off: they are left out, so that windows let light in.
+  ///@{ Transparent materials block and reflect; default off: they are left out, so that windows let
+  ///light in.
   void SetOpaqueGlass(bool on);
   bool GetOpaqueGlass();
   vtkBooleanMacro(OpaqueGlass, bool);
@@ -81,39 +82,42 @@ public:
   bool GetFixEmitters();
   vtkBooleanMacro(FixEmitters, bool);
   ///@}
-  ///@{ Angle in degrees, [0, 180], up to which normals are smooth where the file has none; default 30.
+  ///@{ Angle in degrees, [0, 180], up to which normals are smooth where the file has none;
+  ///default 30.
   void SetFeatureAngle(double degrees);
   double GetFeatureAngle();
   ///@}
 
-  ///@{ Radiance (R, G, B) of a uniform sky in W/(m2 sr), added to the file's lights; default 0: none.
+  ///@{ Radiance (R, G, B) of a uniform sky in W/(m2 sr), added to the file's lights; default 0:
+  ///none.
   vtkSetVector3Macro(Sky, double);
   vtkGetVector3Macro(Sky, double);
   ///@}
-  ///@{ Changes by name: "MATERIAL:reflectance=R,G,B", "MATERIAL:emission=R,G,B" (radiance, W/(m2 sr)) or
+  ///@{ Changes by name: "MATERIAL:reflectance=R,G,B", "MATERIAL:emission=R,G,B" (radiance, W/(m2
+  ///sr)) or
   /// "MATERIAL:two-sided"; several joined by '|'.
   void AddMaterialSetting(const std::string& setting);
   void ClearMaterialSettings();
   int GetNumberOfMaterialSettings();
   ///@}
 
-  /// What was read and what was changed, as JSON: objects "read" and "cleaning" with every count, and "warnings".
-  /// Empty before the first successful update.
+  /// What was read and what was changed, as JSON: objects "read" and "cleaning" with every count,
+  /// and "warnings". Empty before the first successful update.
   std::string GetReportJson();
 
-protected:
+ protected:
   vtkRadiositySceneReader();
   ~vtkRadiositySceneReader() override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-private:
+ private:
   vtkRadiositySceneReader(const vtkRadiositySceneReader&) = delete;
   void operator=(const vtkRadiositySceneReader&) = delete;
 
   struct Settings;
   std::unique_ptr<Settings> Options;
   double DefaultReflectance[3];
-  double Sky[3] = { 0, 0, 0 };
+  double Sky[3] = {0, 0, 0};
 };
 
 #endif

@@ -18,30 +18,24 @@
 #include <algorithm>
 #include <cstring>
 
-namespace lambert
-{
-namespace
-{
+namespace lambert {
+namespace {
 using Names = vtkRadiosityArrays;
 
-bool IsAllTriangles(vtkPolyData* input)
-{
+bool IsAllTriangles(vtkPolyData* input) {
   return input->GetNumberOfCells() == input->GetNumberOfPolys() &&
-    (input->GetNumberOfPolys() == 0 || input->GetPolys()->IsHomogeneous() == 3);
+         (input->GetNumberOfPolys() == 0 || input->GetPolys()->IsHomogeneous() == 3);
 }
 
 /// The polygons and strips of `input` as triangles that know the cell they came from.
-vtkSmartPointer<vtkPolyData> Triangulate(vtkPolyData* input)
-{
+vtkSmartPointer<vtkPolyData> Triangulate(vtkPolyData* input) {
   vtkNew<vtkPolyData> numbered;
   numbered->ShallowCopy(input);
-  if (!numbered->GetCellData()->GetArray(Names::SourceCellId()))
-  {
+  if (!numbered->GetCellData()->GetArray(Names::SourceCellId())) {
     vtkNew<vtkIdTypeArray> ids;
     ids->SetName(Names::SourceCellId());
     ids->SetNumberOfValues(input->GetNumberOfCells());
-    for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
-    {
+    for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell) {
       ids->SetValue(cell, cell);
     }
     numbered->GetCellData()->AddArray(ids);
@@ -56,48 +50,40 @@ vtkSmartPointer<vtkPolyData> Triangulate(vtkPolyData* input)
 
 /// Gives `table` as many default rows as `ids` name, at least one. Throws Error for a negative id.
 template <class Row>
-void CoverIds(const std::vector<int32_t>& ids, const char* name, std::vector<Row>* table)
-{
+void CoverIds(const std::vector<int32_t>& ids, const char* name, std::vector<Row>* table) {
   const auto [low, high] = std::minmax_element(ids.begin(), ids.end());
-  if (low != ids.end() && *low < 0)
-  {
+  if (low != ids.end() && *low < 0) {
     throw Error(std::string("The array ") + name + " has the entry " + std::to_string(*low) +
-      "; rows are numbered from 0.");
+                "; rows are numbered from 0.");
   }
   const size_t rows = high != ids.end() ? static_cast<size_t>(*high) + 1 : 1;
-  table->resize(std::max({ table->size(), rows, size_t{ 1 } }));
+  table->resize(std::max({table->size(), rows, size_t{1}}));
 }
 
-void AddSpectra(
-  vtkDataSetAttributes* data, const char* name, const std::vector<Spectrum>& values)
-{
+void AddSpectra(vtkDataSetAttributes* data, const char* name, const std::vector<Spectrum>& values) {
   vtkNew<vtkFloatArray> array;
   array->SetName(name);
   array->SetNumberOfComponents(3);
   array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-  if (!values.empty())
-  {
+  if (!values.empty()) {
     std::memcpy(array->GetPointer(0), values.data(), values.size() * sizeof(Spectrum));
   }
   data->AddArray(array);
 }
 
 template <class Array, class T>
-void AddScalars(vtkDataSetAttributes* data, const char* name, const std::vector<T>& values)
-{
+void AddScalars(vtkDataSetAttributes* data, const char* name, const std::vector<T>& values) {
   vtkNew<Array> array;
   array->SetName(name);
   array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   data->AddArray(array);
 }
-}
+}  // namespace
 
-Scene SceneAsStoredInPolyData(vtkPolyData* input)
-{
+Scene SceneAsStoredInPolyData(vtkPolyData* input) {
   Scene scene;
-  if (!input)
-  {
+  if (!input) {
     return scene;
   }
   scene.mesh = TriangleMeshFromPolyData(IsAllTriangles(input) ? input : Triangulate(input).Get());
@@ -107,34 +93,29 @@ Scene SceneAsStoredInPolyData(vtkPolyData* input)
   return scene;
 }
 
-Scene SceneFromPolyData(vtkPolyData* input, double featureAngle)
-{
+Scene SceneFromPolyData(vtkPolyData* input, double featureAngle) {
   Scene scene = SceneAsStoredInPolyData(input);
-  if (scene.mesh.normals.empty() && !scene.mesh.positions.empty())
-  {
+  if (scene.mesh.normals.empty() && !scene.mesh.positions.empty()) {
     MeshTopology topology = ConnectFaces(scene.mesh);
     CompletePointNormals(featureAngle, &scene.mesh, &topology);
   }
   return scene;
 }
 
-void PolyDataFromScene(const Scene& scene, vtkPolyData* output)
-{
+void PolyDataFromScene(const Scene& scene, vtkPolyData* output) {
   PolyDataFromTriangleMesh(scene.mesh, output);
   WriteSceneTables(scene, output->GetFieldData());
 }
 
-void PolyDataFromSolution(const RadiositySolution& solution, vtkPolyData* output)
-{
+void PolyDataFromSolution(const RadiositySolution& solution, vtkPolyData* output) {
   PolyDataFromTriangleMesh(solution.mesh, output);
   vtkCellData* cells = output->GetCellData();
   AddScalars<vtkIdTypeArray>(cells, Names::InputFaceId(), solution.inputFaceId);
   AddScalars<vtkUnsignedCharArray>(cells, Names::Side(), solution.side);
-  if (!solution.leafId.empty())
-  {
+  if (!solution.leafId.empty()) {
     AddScalars<vtkIdTypeArray>(cells, Names::LeafId(), solution.leafId);
   }
   AddSpectra(output->GetPointData(), Names::Irradiance(), solution.irradiance);
   AddSpectra(output->GetPointData(), Names::Radiosity(), solution.radiosity);
 }
-}
+}  // namespace lambert

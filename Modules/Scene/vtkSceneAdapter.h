@@ -1,5 +1,6 @@
-// The bridge between a vtkPolyData and a lit scene: mesh arrays, and the material, part and light tables and the camera
-// that ride in the field data under the names of vtkRadiosityArrays, so that VTK's own writers keep them. C++ only.
+// The bridge between a vtkPolyData and a lit scene: mesh arrays, and the material, part and light
+// tables and the camera that ride in the field data under the names of vtkRadiosityArrays, so that
+// VTK's own writers keep them. C++ only.
 #ifndef vtkSceneAdapter_h
 #define vtkSceneAdapter_h
 
@@ -9,13 +10,13 @@
 
 class vtkPolyData;
 
-namespace lambert
-{
-/// The scene that `input` carries, its geometry as it stands. Tables that it lacks get default rows, as many as its faces
-/// name, at least one (lights: none). Polygons and strips are cut into triangles, each with the SourceCellId of the
-/// cell that it came from; vertices and lines are left out. A mesh without point normals gets them, within
-/// `featureAngle` degrees: its own points keep their numbers, copies where it is creased follow them.
-/// Throws Error for arrays of the wrong length or number of components and for values out of range.
+namespace lambert {
+/// The scene that `input` carries, its geometry as it stands. Tables that it lacks get default
+/// rows, as many as its faces name, at least one (lights: none). Polygons and strips are cut into
+/// triangles, each with the SourceCellId of the cell that it came from; vertices and lines are left
+/// out. A mesh without point normals gets them, within `featureAngle` degrees: its own points keep
+/// their numbers, copies where it is creased follow them. Throws Error for arrays of the wrong
+/// length or number of components and for values out of range.
 LAMBERTSCENE_EXPORT Scene SceneFromPolyData(vtkPolyData* input, double featureAngle = 30);
 
 /// The same with no normals made: where `input` has none, the mesh has none.
@@ -24,10 +25,10 @@ LAMBERTSCENE_EXPORT Scene SceneAsStoredInPolyData(vtkPolyData* input);
 /// Fills `output` with the mesh arrays and the tables of `scene`.
 LAMBERTSCENE_EXPORT void PolyDataFromScene(const Scene& scene, vtkPolyData* output);
 
-/// Fills `output` with the refined mesh and its light; InputFaceId, Side (and LeafId) at its cells, Irradiance and
-/// Radiosity at its points.
-LAMBERTSCENE_EXPORT void PolyDataFromSolution(
-  const RadiositySolution& solution, vtkPolyData* output);
-}
+/// Fills `output` with the refined mesh and its light; InputFaceId, Side (and LeafId) at its cells,
+/// Irradiance and Radiosity at its points.
+LAMBERTSCENE_EXPORT void PolyDataFromSolution(const RadiositySolution& solution,
+                                              vtkPolyData* output);
+}  // namespace lambert
 
 #endif

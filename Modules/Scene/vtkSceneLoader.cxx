@@ -12,29 +12,23 @@
 
 #include <vtksys/SystemTools.hxx>
 
-namespace lambert
-{
-namespace
-{
+namespace lambert {
+namespace {
 /// Hears what VTK's reader would print.
-class ErrorListener : public vtkCommand
-{
-public:
+class ErrorListener : public vtkCommand {
+ public:
   static ErrorListener* New() { return new ErrorListener; }
   void Execute(vtkObject*, unsigned long, void*) override { this->Heard = true; }
   bool Heard = false;
 };
 
-bool IsVtp(const std::string& file)
-{
+bool IsVtp(const std::string& file) {
   return vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(file)) ==
-    ".vtp";
+         ".vtp";
 }
 
-vtkSmartPointer<vtkPolyData> ReadVtp(const std::string& file)
-{
-  if (!vtksys::SystemTools::TestFileAccess(file, vtksys::TEST_FILE_READ | vtksys::TEST_FILE_OK))
-  {
+vtkSmartPointer<vtkPolyData> ReadVtp(const std::string& file) {
+  if (!vtksys::SystemTools::TestFileAccess(file, vtksys::TEST_FILE_READ | vtksys::TEST_FILE_OK)) {
     throw Error("The file '" + file + "' cannot be opened.");
   }
   vtkNew<ErrorListener> listener;
@@ -45,36 +39,29 @@ vtkSmartPointer<vtkPolyData> ReadVtp(const std::string& file)
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listener);
   reader->SetFileName(file.c_str());
   const bool readable = reader->CanReadFile(file.c_str()) != 0;
-  if (readable)
-  {
+  if (readable) {
     reader->Update();
   }
-  if (!readable || listener->Heard || reader->GetErrorCode() != 0)
-  {
+  if (!readable || listener->Heard || reader->GetErrorCode() != 0) {
     throw Error("The file '" + file + "' is not a VTP file or is damaged.");
   }
-  if (reader->GetOutput()->GetNumberOfPolys() + reader->GetOutput()->GetNumberOfStrips() == 0)
-  {
+  if (reader->GetOutput()->GetNumberOfPolys() + reader->GetOutput()->GetNumberOfStrips() == 0) {
     throw Error("The file '" + file + "' has no faces.");
   }
   return reader->GetOutput();
 }
 
 /// The faces of one part as a mesh of its own. `local` is -1 for every point, before and after.
-TriangleMesh ExtractFaces(
-  const TriangleMesh& all, const std::vector<int64_t>& faces, std::vector<int32_t>* local)
-{
+TriangleMesh ExtractFaces(const TriangleMesh& all, const std::vector<int64_t>& faces,
+                          std::vector<int32_t>* local) {
   TriangleMesh mesh;
   std::vector<size_t> points;
-  for (const int64_t face : faces)
-  {
+  for (const int64_t face : faces) {
     const size_t from = static_cast<size_t>(face);
     std::array<int32_t, 3> corners = all.triangles[from];
-    for (int32_t& corner : corners)
-    {
+    for (int32_t& corner : corners) {
       int32_t& index = (*local)[static_cast<size_t>(corner)];
-      if (index < 0)
-      {
+      if (index < 0) {
         index = static_cast<int32_t>(points.size());
         points.push_back(static_cast<size_t>(corner));
       }
@@ -87,15 +74,12 @@ TriangleMesh ExtractFaces(
     mesh.materialId.push_back(all.materialId[from]);
     mesh.sourceCellId.push_back(all.sourceCellId[from]);
   }
-  for (const size_t point : points)
-  {
+  for (const size_t point : points) {
     mesh.positions.push_back(all.positions[point]);
-    if (!all.normals.empty())
-    {
+    if (!all.normals.empty()) {
       mesh.normals.push_back(all.normals[point]);
     }
-    if (!all.uvs.empty())
-    {
+    if (!all.uvs.empty()) {
       mesh.uvs.push_back(all.uvs[point]);
     }
     (*local)[point] = -1;
@@ -104,140 +88,117 @@ TriangleMesh ExtractFaces(
 }
 
 /// What a VTP's faces lack is taken from the options.
-void ApplyOptions(vtkPolyData* input, const SceneReaderOptions& options, Scene* scene)
-{
-  if (!input->GetCellData()->GetArray(vtkRadiosityArrays::Reflectance()))
-  {
+void ApplyOptions(vtkPolyData* input, const SceneReaderOptions& options, Scene* scene) {
+  if (!input->GetCellData()->GetArray(vtkRadiosityArrays::Reflectance())) {
     scene->mesh.reflectance.assign(scene->mesh.triangles.size(), options.defaultReflectance);
-    for (Material& material : scene->materials)
-    {
+    for (Material& material : scene->materials) {
       material.reflectance = options.defaultReflectance;
     }
   }
-  for (uint8_t& flags : scene->mesh.faceFlags)
-  {
-    if (options.twoSidedEmitters && (flags & (kEmitsFront | kEmitsBack)))
-    {
+  for (uint8_t& flags : scene->mesh.faceFlags) {
+    if (options.twoSidedEmitters && (flags & (kEmitsFront | kEmitsBack))) {
       flags |= kEmitsFront | kEmitsBack;
     }
   }
 }
 
-void Scale(double metresPerUnit, Scene* scene)
-{
-  for (Light& light : scene->lights)
-  {
+void Scale(double metresPerUnit, Scene* scene) {
+  for (Light& light : scene->lights) {
     light.position *= static_cast<float>(metresPerUnit);
   }
-  if (scene->camera)
-  {
+  if (scene->camera) {
     scene->camera->position *= metresPerUnit;
     scene->camera->focalPoint *= metresPerUnit;
   }
-  for (Part& part : scene->parts)
-  {
-    for (size_t i = 0; i < 12; ++i)
-    {
+  for (Part& part : scene->parts) {
+    for (size_t i = 0; i < 12; ++i) {
       part.objectToWorld[i] *= metresPerUnit;
     }
   }
 }
 
-/// Adds a stored scene to the assembly, a mesh a part. Its points are in the world already: the parts come with the
-/// unit alone as their matrix.
-void AppendScene(Scene scene, double metresPerUnit, SceneAssembly* assembly)
-{
+/// Adds a stored scene to the assembly, a mesh a part. Its points are in the world already: the
+/// parts come with the unit alone as their matrix.
+void AppendScene(Scene scene, double metresPerUnit, SceneAssembly* assembly) {
   const auto materialOffset = static_cast<int32_t>(assembly->materials.size());
-  for (int32_t& material : scene.mesh.materialId)
-  {
+  for (int32_t& material : scene.mesh.materialId) {
     material += materialOffset;
   }
   std::vector<std::vector<int64_t>> facesOfPart(scene.parts.size());
-  for (int64_t face = 0; face < scene.mesh.FaceCount(); ++face)
-  {
+  for (int64_t face = 0; face < scene.mesh.FaceCount(); ++face) {
     facesOfPart[static_cast<size_t>(scene.mesh.partId[static_cast<size_t>(face)])].push_back(face);
   }
   std::vector<int32_t> local(scene.mesh.positions.size(), -1);
-  for (size_t i = 0; i < scene.parts.size(); ++i)
-  {
+  for (size_t i = 0; i < scene.parts.size(); ++i) {
     Part& part = scene.parts[i];
     part.meshId = static_cast<int32_t>(assembly->meshes.size());
-    part.objectToWorld = { metresPerUnit, 0, 0, 0, 0, metresPerUnit, 0, 0, 0, 0, metresPerUnit, 0,
-      0, 0, 0, 1 };
+    part.objectToWorld = {
+        metresPerUnit, 0, 0, 0, 0, metresPerUnit, 0, 0, 0, 0, metresPerUnit, 0, 0, 0, 0, 1};
     assembly->meshes.push_back(ExtractFaces(scene.mesh, facesOfPart[i], &local));
     assembly->parts.push_back(part);
   }
-  assembly->materials.insert(
-    assembly->materials.end(), scene.materials.begin(), scene.materials.end());
+  assembly->materials.insert(assembly->materials.end(), scene.materials.begin(),
+                             scene.materials.end());
   assembly->lights.insert(assembly->lights.end(), scene.lights.begin(), scene.lights.end());
-  if (!assembly->camera)
-  {
+  if (!assembly->camera) {
     assembly->camera = scene.camera;
   }
 }
-}
+}  // namespace
 
 Scene LoadScene(const std::vector<std::string>& files, const SceneReaderOptions& readerOptions,
-  const CleaningOptions& cleaningOptions, const std::vector<std::string>& materialSettings,
-  ReadReport* readReport, CleaningReport* cleaningReport, const ProgressCallback& progress)
-{
-  if (files.empty())
-  {
+                const CleaningOptions& cleaningOptions,
+                const std::vector<std::string>& materialSettings, ReadReport* readReport,
+                CleaningReport* cleaningReport, const ProgressCallback& progress) {
+  if (files.empty()) {
     throw Error("No file was given to read.");
   }
-  const auto half = [&](double begin)
-  {
-    return [&progress, begin](double fraction, const char* stage)
-    { return Report(progress, begin + 0.5 * fraction, stage); };
+  const auto half = [&](double begin) {
+    return [&progress, begin](double fraction, const char* stage) {
+      return Report(progress, begin + 0.5 * fraction, stage);
+    };
   };
 
   // Read.
   std::vector<std::string> vtpFiles, otherFiles;
-  for (const std::string& file : files)
-  {
+  for (const std::string& file : files) {
     (IsVtp(file) ? vtpFiles : otherFiles).push_back(file);
   }
   SceneAssembly assembly;
-  if (!otherFiles.empty())
-  {
+  if (!otherFiles.empty()) {
     assembly = ReadScene(otherFiles, readerOptions, half(0));
   }
   const double metresPerUnit = readerOptions.metresPerUnit > 0 ? readerOptions.metresPerUnit : 1;
   std::vector<std::pair<size_t, std::array<double, 16>>> storedMatrices;
-  for (const std::string& file : vtpFiles)
-  {
+  for (const std::string& file : vtpFiles) {
     vtkSmartPointer<vtkPolyData> stored = ReadVtp(file);
     Scene scene = SceneAsStoredInPolyData(stored);
     ApplyOptions(stored, readerOptions, &scene);
     Scale(metresPerUnit, &scene);
-    for (size_t i = 0; i < scene.parts.size(); ++i)
-    {
+    for (size_t i = 0; i < scene.parts.size(); ++i) {
       storedMatrices.emplace_back(assembly.parts.size() + i, scene.parts[i].objectToWorld);
     }
     AppendScene(std::move(scene), metresPerUnit, &assembly);
     assembly.report.files.push_back(file);
     assembly.report.faces += stored->GetNumberOfPolys() + stored->GetNumberOfStrips();
   }
-  if (otherFiles.empty())
-  {
+  if (otherFiles.empty()) {
     assembly.report.unit = "m";
     assembly.report.metresPerUnit = metresPerUnit;
   }
-  for (const std::string& setting : materialSettings)
-  {
+  for (const std::string& setting : materialSettings) {
     ApplyMaterialSetting(setting, &assembly);
   }
-  if (readReport)
-  {
+  if (readReport) {
     *readReport = assembly.report;
   }
 
-  // Clean and place; parts that were stored in the world get back the matrices they were stored with.
+  // Clean and place; parts that were stored in the world get back the matrices they were stored
+  // with.
   Scene scene = AssembleScene(std::move(assembly), cleaningOptions, cleaningReport, half(0.5));
-  for (const auto& [part, matrix] : storedMatrices)
-  {
+  for (const auto& [part, matrix] : storedMatrices) {
     scene.parts[part].objectToWorld = matrix;
   }
   return scene;
 }
-}
+}  // namespace lambert

@@ -6,15 +6,18 @@
 #include "Scene/Core/SceneReader.h"
 #include "lambertSceneModule.h"
 
-namespace lambert
-{
-/// Reads `files` in the given order (VTP by VTK, after all others), applies `materialSettings` (see ApplyMaterialSetting),
-/// cleans and places. A VTP keeps its parts, materials, lights and camera; the first camera found counts. The reports
-/// may be null. Throws Error, one clear sentence, and Cancelled.
+namespace lambert {
+/// Reads `files` in the given order (VTP by VTK, after all others), applies `materialSettings` (see
+/// ApplyMaterialSetting), cleans and places. A VTP keeps its parts, materials, lights and camera;
+/// the first camera found counts. The reports may be null. Throws Error, one clear sentence, and
+/// Cancelled.
 LAMBERTSCENE_EXPORT Scene LoadScene(const std::vector<std::string>& files,
-  const SceneReaderOptions& readerOptions = {}, const CleaningOptions& cleaningOptions = {},
-  const std::vector<std::string>& materialSettings = {}, ReadReport* readReport = nullptr,
-  CleaningReport* cleaningReport = nullptr, const ProgressCallback& progress = {});
-}
+                                    const SceneReaderOptions& readerOptions = {},
+                                    const CleaningOptions& cleaningOptions = {},
+                                    const std::vector<std::string>& materialSettings = {},
+                                    ReadReport* readReport = nullptr,
+                                    CleaningReport* cleaningReport = nullptr,
+                                    const ProgressCallback& progress = {});
+}  // namespace lambert
 
 #endif

@@ -6,13 +6,12 @@
 
 class vtkFieldData;
 
-namespace lambert
-{
+namespace lambert {
 /// Fills materials, parts, lights and camera of `scene` with what `fields` holds.
 /// Throws Error where the columns of a table differ in length or in number of components.
 void ReadSceneTables(vtkFieldData* fields, Scene* scene);
 /// Adds the tables of `scene` to `fields`.
 void WriteSceneTables(const Scene& scene, vtkFieldData* fields);
-}
+}  // namespace lambert
 
 #endif

@@ -1,13 +1,11 @@
 """A small lit OBJ through vtkRadiositySceneReader: arrays, tables, report, a round trip through VTP, every Set and Get."""
 import json
-import math
 import os
-import subprocess
-import sys
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkCommand
+from vtkmodules.vtkCommonCore import vtkCommand, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkCubeSource
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 
@@ -160,6 +158,22 @@ assert data.GetNumberOfPoints() == 24
 assert json.loads(reader.GetReportJson())["cleaning"]["openEdges"] == 0
 smooth = read(path, lambda r: r.SetFeatureAngle(100)).GetOutput()
 assert smooth.GetNumberOfPoints() == 8
+
+# Polygons and strips become triangles that know their cell; vertices and lines are left out.
+mixed = vtkPolyData()
+mixed.SetPoints(vtkPoints())
+for x, y in [(0, 0), (1, 0), (1, 1), (0, 1), (2, 0), (2, 1), (3, 0)]:
+    mixed.GetPoints().InsertNextPoint(x, y, 0)
+for kind, ids in [("Verts", [6]), ("Lines", [4, 6]), ("Polys", [0, 1, 2, 3]), ("Strips", [1, 4, 2, 5])]:
+    array = vtkCellArray()
+    array.InsertNextCell(len(ids), ids)
+    getattr(mixed, "Set" + kind)(array)
+data = read(save(mixed, "mixed.vtp", vtkXMLPolyDataWriter.Binary)).GetOutput()
+assert cells(data, names.SourceCellId()).tolist() == [2, 2, 3, 3]
+corners = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+sides = points(data)[corners]
+area = np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0])[:, 2] / 2
+assert np.allclose(area, 0.5)  # all of them, and all the same way up
 
 # What cannot be read ends in one error and an empty output, not in a crash.
 with open(path, "rb") as file:
