@@ -111,6 +111,7 @@ void FileReader::Prepare() {
   extension_ = FileExtension(path_);
   if (extension_ == "ply") CheckPly(path_, bytes_);
   if (extension_ == "stl") CheckStl(path_, bytes_);
+  if (extension_ == "off") CheckOff(path_, bytes_);
   if (extension_ == "gltf" || extension_ == "glb") {
     gltf_.emplace(path_, bytes_);
     bytes_ = gltf_->IndexedBytes(context_);
@@ -170,10 +171,21 @@ void FileReader::DeclareUnit() {
 void FileReader::DescribeMaterials() {
   const std::string folder = std::filesystem::path(path_).parent_path().string();
   materials_ = gltf_ ? gltf_->Materials(context_) : ReadMaterials(*scene_, folder, context_);
+  const bool isObj = extension_ == "obj", hasNone = extension_ == "ply" || extension_ == "stl";
   for (SurfaceMaterial& material : materials_) {
-    // The importer makes up reflectances where these formats give none.
-    const bool madeUp = extension_ == "ply" || extension_ == "stl" ||
-                        (extension_ == "obj" && obj_.withKd.count(material.name) == 0);
+    if (gltf_) break;
+    const MtlScan& mtl = obj_.materials[material.name];
+    if (mtl.dissolve) material.opacity = *mtl.dissolve;
+
+    // Nothing is wholly transparent: exporters to other formats confuse opacity and transparency.
+    if (!isObj && material.opacity <= 0) {
+      material.opacity = 1;
+      context_.Warn("The material \"" + material.name + "\" of \"" + path_ +
+                    "\" has the opacity 0; it was taken as opaque.");
+    }
+
+    // The importer makes up reflectances where a file gives none.
+    const bool madeUp = isObj ? !mtl.hasKd : hasNone || material.name == AI_DEFAULT_MATERIAL_NAME;
     if (!madeUp) continue;
     material.hasReflectance = bool(material.base);
     material.reflectance = material.base ? Spectrum(1.f) : context_.options.defaultReflectance;
@@ -196,8 +208,10 @@ void FileReader::WalkNodes() {
     nodes_.emplace(node->mName.C_Str(), toWorld);
     AddParts(*node, toWorld);
     Advance(0.6 + 0.4 * double(meshRows_.size()) / std::max(1.0, double(scene_->mNumMeshes)));
-    for (unsigned i = node->mNumChildren; i > 0; --i)
-      stack.push_back({node->mChildren[i - 1], toWorld});
+    for (unsigned i = node->mNumChildren; i > 0; --i) {
+      const aiNode* child = node->mChildren[i - 1];
+      if (child) stack.push_back({child, toWorld});  // The importer of RAW leaves gaps.
+    }
   }
 }
 

@@ -79,8 +79,8 @@ void AppendUndotted(std::string_view line, std::string* text) {
   }
 }
 
-/// Names of the materials of a library that give Kd; false where the library is not there.
-bool ScanMtl(const fs::path& path, std::set<std::string>* withKd) {
+/// Scans the library; false where it is not there.
+bool ScanMtl(const fs::path& path, std::map<std::string, MtlScan>* materials) {
   std::ifstream stream(path);
   if (!stream) return false;
   std::string line, name;
@@ -88,7 +88,13 @@ bool ScanMtl(const fs::path& path, std::set<std::string>* withKd) {
     std::string_view rest(line);
     const std::string_view word = NextWord(&rest);
     if (word == "newmtl") name = Trim(rest);
-    if (word == "Kd") withKd->insert(name);
+    MtlScan& material = (*materials)[name];
+    material.hasKd |= word == "Kd";
+    if (word != "d") continue;
+    const std::string_view value = NextWord(&rest);
+    float dissolve = 1;
+    std::from_chars(value.data(), value.data() + value.size(), dissolve);
+    material.dissolve = dissolve;
   }
   return true;
 }
@@ -215,7 +221,7 @@ ObjScan ScanObj(const std::string& path, const std::string& text) {
     if (line.substr(0, 7) == "mtllib ") {
       const std::string name(Trim(line.substr(7)));
       const fs::path library = fs::path(path).parent_path() / name;
-      if (!ScanMtl(library, &scan.withKd)) scan.missingMtl.push_back(name);
+      if (!ScanMtl(library, &scan.materials)) scan.missingMtl.push_back(name);
     }
   }
   return scan;
@@ -230,6 +236,19 @@ void CheckPly(const std::string& path, const std::string& bytes) {
     throw Error(
         "The file \"" + path +
         "\" ends before the elements that its header announces; it is cut off, write it again.");
+  }
+}
+
+void CheckOff(const std::string& path, const std::string& bytes) {
+  std::string_view rest(bytes);
+  int64_t announced = 0;
+  for (int lines = 0; announced == 0 && lines < 2; ++lines) {
+    std::string_view line = NextLine(&rest);
+    announced = std::atoll(std::string(NextWord(&line)).c_str());
+  }
+  if (announced > int64_t(bytes.size())) {
+    throw Error("The file \"" + path +
+                "\" announces more points than it has bytes; write it again.");
   }
 }
 

@@ -118,6 +118,7 @@ GltfDocument::GltfDocument(const std::string& path, const std::string& bytes)
 }
 
 void GltfDocument::ParseBinary(const std::string& bytes) {
+  if (bytes.size() >= 8 && ReadUint32(bytes, 4) != 2) throw Broken("is no glTF 2.0");
   if (bytes.size() < 20 || ReadUint32(bytes, 8) > bytes.size()) throw Broken("is cut off");
   for (size_t at = 12; at + 8 <= bytes.size();) {
     const size_t length = ReadUint32(bytes, at);
@@ -270,8 +271,6 @@ int64_t GltfDocument::AnnouncedTriangles(int mesh, int primitive) const {
   return count / 3;
 }
 
-// ---- Buffers -----------------------------------------------------------------------------------
-
 /// Bytes that a buffer or an image names by its uri, or those of the .glb itself.
 std::string_view GltfDocument::Resource(const Json& owner, std::string* storage) const {
   const std::string uri = owner.value("uri", "");
@@ -323,8 +322,6 @@ std::vector<double> GltfDocument::Accessor(int index, size_t components) const {
   }
   return values;
 }
-
-// ---- Materials ---------------------------------------------------------------------------------
 
 TextureMap GltfDocument::Texture(const Json& info, const TextureDecoding& decoding,
                                  const ReadContext& context) const {
@@ -432,8 +429,6 @@ std::vector<SurfaceMaterial> GltfDocument::Materials(const ReadContext& context)
   materials.push_back(none);
   return materials;
 }
-
-// ---- Nodes -------------------------------------------------------------------------------------
 
 std::vector<Matrix4> GltfDocument::Instances(int node) const {
   const Json& attributes =

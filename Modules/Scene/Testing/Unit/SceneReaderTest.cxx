@@ -127,6 +127,17 @@ TEST_F(SceneReaderTest, Options) {
   EXPECT_EQ(scene.report.transparentFaces, 0);
 }
 
+TEST_F(SceneReaderTest, TransparencyOfMtl) {
+  // Tr is 1 - d, and counts where there is no d.
+  Write("m.mtl", "newmtl clear\nKd 1 1 1\nTr .9\nnewmtl both\nKd .1 .1 .1\nd 1\nTr 1\n");
+  const std::string file = Write("s.obj", std::string("mtllib m.mtl\n") + kTriangle +
+                                              "usemtl clear\nf 1 2 3\nusemtl both\nf 1 2 3\n");
+  const SceneAssembly scene = ReadScene({file});
+  ASSERT_EQ(scene.parts.size(), 1u);
+  ExpectNear(MeshOf(scene, "both").reflectance[0], Spectrum(0.1f));
+  EXPECT_EQ(scene.report.transparentMaterials, 1);
+}
+
 TEST_F(SceneReaderTest, NumbersWithoutALeadingZero) {
   const std::string file = Write("s.obj", "v .25 -.5 +.5\nv 1 0 0\nv 0 1e0 .0\nf 1 2 3\n");
   const TriangleMesh mesh = ReadScene({file}).meshes.at(0);
@@ -492,6 +503,7 @@ TEST_F(SceneReaderTest, BrokenFiles) {
   ExpectSentence((folder_ / "gone.obj").string(), "does not exist");
   ExpectSentence(folder_.string(), "is a folder");
   ExpectSentence(Write("empty.obj", ""), "is empty");
+  ExpectSentence(Write("big.off", "OFF\n353535235358 6 0\n0 0 0\n"), "more points than");
   ExpectSentence(Write("a.unknown", "hello"), "cannot be read");
   ExpectSentence(Write("points.obj", std::string(kTriangle) + "v 1 1 1\np 1\n"),
                  "holds no triangle");
