@@ -253,6 +253,20 @@ TEST(FaceClustering, AHubTakesItsRimWithoutAChain) {
   ClusterAndCheck(mesh);
 }
 
+TEST(FaceClustering, APlateWithStudsIsBoundInDepth) {
+  // The plate is whole first and then takes a thousand studs of many heights one by one: a chain to
+  // be rebuilt.
+  constexpr int kCells = 128;
+  TriangleMesh mesh = FlatGrid(kCells);
+  for (int j = 2; j < kCells; j += 4) {
+    for (int i = 2; i < kCells; i += 4) {
+      mesh.positions[size_t(j * (kCells + 1) + i)].z = float(1 + (i * 7 + j * 13) % 11) / kCells;
+    }
+  }
+  const Clustered c = ClusterAndCheck(mesh);
+  EXPECT_EQ(c.statistics.surfaces, 1);
+}
+
 TEST(FaceClustering, FlatFacesOfABoxAreWholeBeforeTheyMeet) {
   // A cube of 6 x 2 x 15 x 15 faces: the cut to six clusters finds its sides.
   TriangleMesh cube;
