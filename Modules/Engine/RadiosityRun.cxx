@@ -10,14 +10,19 @@ namespace lambert {
 namespace {
 /// Seconds to write an output triangle, an upper figure: some 250 bytes, compressed.
 constexpr double kWriteSecondsPerTriangle = 2e-6;
-/// Iterations grow by about this factor where only one has been seen.
-constexpr double kUsualGrowth = 3;
-/// The reserve for reconstruction and writing over what was measured: the mesh grows until the end.
-constexpr double kReserveFactor = 1.5;
-/// Share of the time spent so far that may go into measuring what the output costs.
+/// Links, and with them the time of an iteration, grow by about this factor; at most by the other.
+constexpr double kUsualGrowth = 3, kLargestGrowth = 8;
+/// The reserve for the output over what is predicted: other work of the machine, uneven rays.
+constexpr double kReserveFactor = 1.3;
+/// Share of the time limit that a reconstruction may be predicted to take to be made for measuring.
 constexpr double kMeasuringShare = 0.1;
+/// Seconds of reconstruction for a link before enough links were there to measure it: an upper
+/// figure of two threads.
+constexpr double kUsualSecondsPerLink = 1e-5;
+constexpr double kLinksToMeasure = 2e4;
 
 /// Decides after every iteration whether another one and the output fit into the time limit.
+/// Reconstruction takes a time for the mesh and a time for every link; both are measured.
 class TimeBudget {
  public:
   TimeBudget(double limit, double fixedSeconds) : Limit(limit), FixedSeconds(fixedSeconds) {}
@@ -26,32 +31,44 @@ class TimeBudget {
     if (this->Limit <= 0) {
       return true;
     }
-    this->MeasureOutput(record, solver);
     const double iteration = record.seconds - this->LastEnd;
-    const double growth = this->LastIteration > 0
-                              ? std::min(8., std::max(1., iteration / this->LastIteration))
+    const double links = static_cast<double>(record.links);
+    const double growth = this->LastLinks > 0
+                              ? std::clamp(links / this->LastLinks, 1., kLargestGrowth)
                               : kUsualGrowth;
-    this->LastEnd = record.seconds;
-    this->LastIteration = iteration;
-    return SecondsSinceProcessStart() + growth * iteration + this->FixedSeconds +
-               kReserveFactor * this->OutputSeconds <
+    this->LastLinks = links;
+    this->LastEnd = record.seconds + this->MeasureOutput(links, solver);
+    return SecondsSinceProcessStart() + growth * iteration +
+               kReserveFactor * this->OutputSeconds(growth * links) + this->FixedSeconds <
            this->Limit;
   }
 
  private:
-  /// Reconstructs once and again while that is cheap beside the solving.
-  void MeasureOutput(const IterationRecord& record, const HierarchicalRadiosity& solver) {
-    if (this->OutputSeconds > kMeasuringShare * record.seconds) {
-      return;
+  double OutputSeconds(double links) const {
+    return this->SecondsForMesh + this->SecondsPerLink * links;
+  }
+
+  /// Reconstructs while that is cheap; returns the seconds that it took.
+  double MeasureOutput(double links, const HierarchicalRadiosity& solver) {
+    if (this->OutputSeconds(links) > kMeasuringShare * this->Limit) {
+      return 0;
     }
     const Timer timer;
     const RadiositySolution solution = solver.Solution();
-    this->OutputSeconds =
-        timer.Seconds() + kWriteSecondsPerTriangle * static_cast<double>(solution.mesh.FaceCount());
+    const double seconds = timer.Seconds();
+    const double output =
+        seconds + kWriteSecondsPerTriangle * static_cast<double>(solution.mesh.FaceCount());
+    if (this->SecondsForMesh <= 0) {
+      this->SecondsForMesh = output;
+    } else if (links >= kLinksToMeasure) {
+      this->SecondsPerLink = std::max(0., output - this->SecondsForMesh) / links;
+    }
+    return seconds;
   }
 
   double Limit, FixedSeconds;
-  double LastEnd = 0, LastIteration = 0, OutputSeconds = 0;
+  double LastEnd = 0, LastLinks = 0;
+  double SecondsForMesh = 0, SecondsPerLink = kUsualSecondsPerLink;
 };
 
 bool IsTooLargeOrSmall(const Scene& scene) {

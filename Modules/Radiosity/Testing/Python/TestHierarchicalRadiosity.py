@@ -121,15 +121,15 @@ aborted.Update()
 assert aborted.GetStoppedBy() == "interrupt" and aborted.GetOutputDataObject(1).GetNumberOfRows() == 1
 assert aborted.GetOutput().GetNumberOfCells() >= scene.GetNumberOfCells()
 
-# What is no triangle is an error.
-errors = []
-quads = vtkPolyData()
-quads.SetPoints(scene.GetPoints())
-cells = vtkCellArray()
-cells.InsertNextCell(4, [0, 1, 2, 3])
-quads.SetPolys(cells)
+# An array of the wrong shape is an error, and nothing is delivered.
+wrong = vtkPolyData()
+wrong.ShallowCopy(scene)
+two_bands = numpy_to_vtk(np.ones((scene.GetNumberOfCells(), 2), np.float32), deep=1)
+two_bands.SetName("Emittance")
+wrong.GetCellData().AddArray(two_bands)
 broken = lambert.vtkHierarchicalRadiosity()
+errors = []
 broken.AddObserver("ErrorEvent", lambda *_: errors.append(1))
-broken.SetInputData(quads)
+broken.SetInputData(wrong)
 broken.Update()
-assert errors
+assert errors and broken.GetOutput().GetNumberOfCells() == 0
