@@ -2,14 +2,16 @@
 
 #include <algorithm>
 
+#include "Radiosity/Core/Transfer.h"
+
 namespace lambert {
 
 namespace {
 
 /// Part of the unoccluded transfer that is in doubt where all sample pairs were clear, all blocked,
-/// or mixed.
-constexpr float kDoubtClear = 0.02f;
-constexpr float kDoubtBlocked = 0.1f;
+/// or mixed. Samples of a source that is large for its distance tell little of its near part.
+constexpr float kDoubtClear = 0.02f, kDoubtClearNear = 0.1f;
+constexpr float kDoubtBlocked = 0.1f, kDoubtBlockedNear = 0.5f;
 constexpr float kDoubtPartial = 0.35f;
 /// Links with such an end are no more than guesses of the order of the transfer itself.
 constexpr float kVolumeSpread = 1.f;
@@ -118,6 +120,13 @@ PairBound BoundPair(const ElementHierarchy& hierarchy, const Element& source,
   bound.formFactor = receiverCosine * cosine * sourceArea /
                      (float(kPi) * distance * distance + cosine * sourceArea);
 
+  // A polygon's is known at the middle of the receiver.
+  if (source.IsPolygon() && !receiver.IsVolume()) {
+    const Vec3f horizon = receiver.coneAngle < float(kPi) / 2 ? receiver.axis : Vec3f();
+    const Vec3f kernel = UnoccludedTransfer(hierarchy, source, receiver.frame.center, horizon);
+    bound.formFactor = std::max(bound.formFactor, Length(kernel));
+  }
+
   // Variation over the receiver, of second order where reconstruction follows the first; shape of
   // the source.
   const float toSource = std::max(Distance(receiver.frame.center, source.frame), 1e-20f);
@@ -146,9 +155,11 @@ TransferError EstimateError(const PairBound& bound, float radiosity, float varia
 
   // Visibility: the larger end is what samples miss most of.
   if (visibility >= 0) {
-    const float doubt = visibility <= 0   ? kDoubtBlocked
-                        : visibility >= 1 ? kDoubtClear
-                                          : kDoubtPartial;
+    const float near = bound.nearness * bound.nearness;
+    const float doubt =
+        visibility <= 0   ? kDoubtBlocked + (kDoubtBlockedNear - kDoubtBlocked) * near
+        : visibility >= 1 ? kDoubtClear + (kDoubtClearNear - kDoubtClear) * near
+                          : kDoubtPartial;
     const bool splitSource =
         source.radius > 2 * receiver.radius && source.kind != ElementKind::Light;
     (splitSource ? error.bySource : error.byReceiver) += transfer * doubt;

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "Common/Core/Random.h"
+#include "Common/Core/SphericalTriangle.h"
 #include "Radiosity/Core/PolygonIrradiance.h"
 
 namespace lambert {
@@ -56,10 +58,45 @@ Vec3f LightTransfer(const Light& light, const Vec3f& x, const Vec3f& horizon) {
   return direction * (light.ConeFactor(-direction) / squared);
 }
 
-/// Where a ray from `x` toward sample `k` of the source ends; false where that sample cannot be
-/// seen from there.
+/// A source looks large from `x` where it is nearer than this many of its radii.
+constexpr float kLargeWithin = 2;
+
+/// Sample `k` of a polygon that looks large from `x`: uniform in solid angle, so that its near part
+/// gets its share.
+Vec3f SolidAngleTarget(const ElementHierarchy& hierarchy, const Element& source, int k,
+                       const Vec3f& x) {
+  Vec3f corners[kMaximumPolygonCorners];
+  const int count = hierarchy.PolygonCorners(source, corners);
+  Vec3d toward[kMaximumPolygonCorners];
+  for (int i = 0; i < count; ++i) toward[i] = Normalize(Vec3d(corners[i]) - Vec3d(x));
+
+  // A triangle of the fan, then a direction within it.
+  double angles[kMaximumPolygonCorners] = {}, total = 0;
+  for (int i = 2; i < count; ++i) {
+    total += angles[i] = SolidAngle(toward[0], toward[i - 1], toward[i]);
+  }
+  double left = (k + 0.5) / kSamplesPerElement * total;
+  int triangle = 2;
+  while (triangle + 1 < count && left >= angles[triangle]) left -= angles[triangle++];
+  const double share = angles[triangle] > 0 ? std::min(1.0, left / angles[triangle]) : 0;
+  if (!(angles[triangle] > 1e-9)) return source.samples[size_t(k)].position;
+  const Vec3d direction =
+      SampleSphericalTriangle(toward[0], toward[triangle - 1], toward[triangle], share,
+                              double(RadicalInverse(uint32_t(k), 0.25f)));
+
+  // To where it meets the polygon's plane.
+  const Vec3d normal(source.axis);
+  const double slope = Dot(direction, normal);
+  const double height = Dot(Vec3d(corners[0]) - Vec3d(x), normal);
+  if (!(slope * height > 0)) return source.samples[size_t(k)].position;
+  return Vec3f(Vec3d(x) + direction * (height / slope));
+}
+
+/// Where a ray from `x` toward sample `k` of the source ends, and how much it counts; false where
+/// that sample cannot be seen from there.
 bool RayTarget(const ElementHierarchy& hierarchy, const Element& source, int k, const Vec3f& x,
-               const Vec3f& horizon, Vec3f* target) {
+               const Vec3f& horizon, Vec3f* target, float* weight) {
+  *weight = 1;
   if (source.kind == ElementKind::Light) {
     const Light& light = hierarchy.GetScene().lights[size_t(source.item)];
     *target = light.type == LightType::Directional
@@ -67,10 +104,17 @@ bool RayTarget(const ElementHierarchy& hierarchy, const Element& source, int k, 
                   : light.position;
     return !HasHorizon(horizon) || Dot(*target - x, horizon) > 0;
   }
+  const bool isLarge =
+      source.IsPolygon() && LengthSquared(source.frame.center - x) <
+                                kLargeWithin * kLargeWithin * source.radius * source.radius;
   const SurfaceSample& sample = source.samples[size_t(k)];
-  *target = sample.position;
+  *target = isLarge ? SolidAngleTarget(hierarchy, source, k, x) : sample.position;
   const Vec3f offset = *target - x;
-  return Dot(offset, sample.normal) < 0 && (!HasHorizon(horizon) || Dot(offset, horizon) > 0);
+  if (!(Dot(offset, sample.normal) < 0)) return false;
+  if (!HasHorizon(horizon)) return true;
+  const float height = Dot(offset, horizon);
+  if (isLarge) *weight = height / Length(offset);
+  return height > 0;
 }
 
 /// The clip plane of a place on a receiver: volumes receive from everywhere.
@@ -95,16 +139,17 @@ Vec3f UnoccludedTransfer(const ElementHierarchy& hierarchy, const Element& sourc
 
 float VisibleFraction(const ElementHierarchy& hierarchy, const RayScene& rayScene,
                       const Element& source, const Vec3f& x, const Vec3f& horizon, int64_t* rays) {
-  int cast = 0, clear = 0;
+  float cast = 0, clear = 0;
   const int samples = source.kind == ElementKind::Light ? 1 : kSamplesPerElement;
   for (int k = 0; k < samples; ++k) {
     Vec3f target;
-    if (!RayTarget(hierarchy, source, k, x, horizon, &target)) continue;
-    ++cast;
-    if (!rayScene.Occluded(x, target)) ++clear;
+    float weight;
+    if (!RayTarget(hierarchy, source, k, x, horizon, &target, &weight)) continue;
+    ++*rays;
+    cast += weight;
+    if (!rayScene.Occluded(x, target)) clear += weight;
   }
-  *rays += cast;
-  return cast > 0 ? float(clear) / float(cast) : 1;
+  return cast > 0 ? clear / cast : 1;
 }
 
 Vec3f SkyTransfer(const RayScene& rayScene, const Vec3f& x, const Vec3f& horizon, float* visible,
@@ -152,9 +197,10 @@ TransferEstimate EstimateTransfer(const ElementHierarchy& hierarchy, const RaySc
           VisibleFraction(hierarchy, rayScene, source, sample.position, horizon, &estimate.rays);
     } else {
       Vec3f target;
+      float pairWeight;
       for (int j = 0; j < kSamplesPerElement; ++j) {
         if (!RayTarget(hierarchy, source, (k + j) % kSamplesPerElement, sample.position, horizon,
-                       &target)) {
+                       &target, &pairWeight)) {
           continue;
         }
         ++estimate.rays;

@@ -1,7 +1,7 @@
 #include "Reference/Core/EmitterTree.h"
 
 #include "Common/Core/Random.h"
-#include "Reference/Core/SphericalTriangle.h"
+#include "Common/Core/SphericalTriangle.h"
 
 namespace lambert {
 
