@@ -2,9 +2,11 @@
 
 #include "Common/Core/Error.h"
 #include "Display/Core/DefaultCamera.h"
+#include "Display/Core/ToneMapping.h"
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkErrorCode.h"
+#include "vtkImageData.h"
 #include "vtkImageShrink3D.h"
 #include "vtkInformation.h"
 #include "vtkNew.h"
@@ -19,10 +21,13 @@
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkTriangleMeshAdapter.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkWindowToImageFilter.h"
 
 #include <X11/Xlib.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 
 vtkStandardNewMacro(vtkRadiosityImageWriter);
@@ -35,12 +40,78 @@ constexpr int kMaximumSize = 8192;
 std::vector<lambert::Spectrum> ReadLight(vtkPolyData* data) {
   std::vector<lambert::Spectrum> light(static_cast<size_t>(data->GetNumberOfPoints()));
   vtkDataArray* array = data->GetPointData()->GetArray(vtkRadiosityArrays::Radiosity());
-  for (size_t point = 0; array && point < light.size(); ++point) {
-    double tuple[9] = {0, 0, 0};
+  if (!array || array->GetNumberOfComponents() != 3) {
+    throw lambert::Error(
+        "The data has no point array Radiosity of three components; run a radiosity method first.");
+  }
+  for (size_t point = 0; point < light.size(); ++point) {
+    double tuple[3];
     array->GetTuple(static_cast<vtkIdType>(point), tuple);
     light[point] = {float(tuple[0]), float(tuple[1]), float(tuple[2])};
   }
   return light;
+}
+
+/// Metering: luminance as an 8-bit logarithm, 0 for black and for lamps, drawn small.
+constexpr const char* kLogCodes = "LogLuminance";
+constexpr double kStops = 24,
+                 kLowestStop = -12;  ///< of the mean luminance; a code is a tenth of a stop
+constexpr int kMeteringShrink = 4;
+
+vtkSmartPointer<vtkUnsignedCharArray> PointColors(const char* name, vtkIdType points) {
+  auto colors = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  colors->SetName(name);
+  colors->SetNumberOfComponents(3);
+  colors->SetNumberOfTuples(points);
+  return colors;
+}
+
+/// Adds the codes and returns the mean luminance that they are relative to.
+double AddLogCodes(vtkPolyData* data) {
+  const std::vector<lambert::LuminanceSample> samples =
+      lambert::LuminanceSamples(lambert::TriangleMeshFromPolyData(data), ReadLight(data));
+  double sum = 0, weight = 0;
+  for (const lambert::LuminanceSample& s : samples) {
+    sum += double(s.weight) * s.luminance;
+    weight += s.weight;
+  }
+  const auto codes = PointColors(kLogCodes, data->GetNumberOfPoints());
+  for (size_t point = 0; point < samples.size(); ++point) {
+    const lambert::LuminanceSample& s = samples[point];
+    const bool counts = s.weight > 0 && s.luminance > 0;
+    const double stop = counts ? std::log2(s.luminance * weight / sum) : kLowestStop;
+    const double code = counts ? 1 + 254 * (stop - kLowestStop) / kStops : 0;
+    const auto byte = static_cast<unsigned char>(std::clamp(code, 0., 255.));
+    const unsigned char tuple[3] = {byte, byte, byte};
+    codes->SetTypedTuple(static_cast<vtkIdType>(point), tuple);
+  }
+  data->GetPointData()->AddArray(codes);
+  return weight > 0 ? sum / weight : 0;
+}
+
+/// A sample a pixel that shows a lit surface.
+std::vector<lambert::LuminanceSample> SamplesFromLogCodes(vtkImageData* image, double mean) {
+  std::vector<lambert::LuminanceSample> samples;
+  const auto* codes = static_cast<const unsigned char*>(image->GetScalarPointer());
+  for (vtkIdType pixel = 0; pixel < image->GetNumberOfPoints(); ++pixel) {
+    const unsigned char code = codes[pixel * image->GetNumberOfScalarComponents()];
+    if (code > 0) {
+      const double stop = kLowestStop + kStops * (code - 1) / 254;
+      samples.push_back({static_cast<float>(mean * std::exp2(stop)), 1});
+    }
+  }
+  return samples;
+}
+
+void AddColors(vtkPolyData* data, const lambert::ToneMapping& toneMapping) {
+  const char* name = vtkRadiosityToneMapping::ColorsArrayName();
+  const auto colors = PointColors(name, data->GetNumberOfPoints());
+  const std::vector<lambert::Spectrum> light = ReadLight(data);
+  for (size_t point = 0; point < light.size(); ++point) {
+    colors->SetTypedTuple(static_cast<vtkIdType>(point),
+                          toneMapping.ApplyToBytes(light[point]).data());
+  }
+  data->GetPointData()->AddArray(colors);
 }
 }  // namespace
 
@@ -94,17 +165,22 @@ void vtkRadiosityImageWriter::WriteData() {
           "Drawing a picture needs an X display and none answers: run under xvfb-run.");
     }
 
-    // Colour the points where they are not coloured yet, then draw.
-    vtkPolyData* input = vtkPolyData::SafeDownCast(this->GetInput());
-    vtkNew<vtkRadiosityToneMapping> toneMapping;
-    toneMapping->SetInputData(input);
-    toneMapping->SetExposure(this->Exposure);
-    if (input->GetPointData()->GetArray(vtkRadiosityToneMapping::ColorsArrayName())) {
-      this->Draw(input);
-      return;
+    // Expose for what the picture shows, unless the points are coloured already.
+    vtkNew<vtkPolyData> colored;
+    colored->ShallowCopy(vtkPolyData::SafeDownCast(this->GetInput()));
+    if (!colored->GetPointData()->GetArray(vtkRadiosityToneMapping::ColorsArrayName())) {
+      const double mean = AddLogCodes(colored);
+      const auto metered =
+          this->Draw(colored, kLogCodes, std::max(1, this->Size[0] / kMeteringShrink),
+                     std::max(1, this->Size[1] / kMeteringShrink));
+      lambert::ToneMappingOptions options;
+      options.exposure = this->Exposure;
+      AddColors(colored, lambert::ToneMapping(SamplesFromLogCodes(metered, mean), options));
     }
-    toneMapping->Update();
-    this->Draw(toneMapping->GetOutput());
+
+    // Draw.
+    this->WriteImage(this->Draw(colored, vtkRadiosityToneMapping::ColorsArrayName(),
+                                kSupersampling * this->Size[0], kSupersampling * this->Size[1]));
   } catch (const std::exception& error) {
     if (this->GetErrorCode() == vtkErrorCode::NoError) {
       this->SetErrorCode(vtkErrorCode::UnknownError);
@@ -132,42 +208,45 @@ void vtkRadiosityImageWriter::PlaceCamera(vtkRenderer* renderer, vtkPolyData* co
   renderer->ResetCameraClippingRange();
 }
 
-void vtkRadiosityImageWriter::Draw(vtkPolyData* colored) {
+vtkSmartPointer<vtkImageData> vtkRadiosityImageWriter::Draw(vtkPolyData* data, const char* colors,
+                                                            int width, int height) {
   // The light as it is: vertex colours, no shading, front faces only.
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(colored);
+  mapper->SetInputData(data);
   mapper->SetScalarModeToUsePointFieldData();
-  mapper->SelectColorArray(vtkRadiosityToneMapping::ColorsArrayName());
+  mapper->SelectColorArray(colors);
   mapper->SetColorModeToDirectScalars();
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   actor->GetProperty()->LightingOff();
   actor->GetProperty()->BackfaceCullingOn();
 
-  // Off-screen, several samples a pixel.
+  // Off-screen, on black: where there is nothing, there is no light.
   vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(0.08, 0.08, 0.09);
   renderer->AddActor(actor);
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(0);
-  window->SetSize(kSupersampling * this->Size[0], kSupersampling * this->Size[1]);
+  window->SetSize(width, height);
   window->AddRenderer(renderer);
-  this->PlaceCamera(renderer, colored);
+  this->PlaceCamera(renderer, data);
   window->Render();
   vtkNew<vtkWindowToImageFilter> grab;
   grab->SetInput(window);
   grab->ReadFrontBufferOff();
-  vtkNew<vtkImageShrink3D> average;
-  average->SetInputConnection(grab->GetOutputPort());
-  average->SetShrinkFactors(kSupersampling, kSupersampling, 1);
-  average->AveragingOn();
+  grab->Update();
+  return grab->GetOutput();
+}
 
-  // Write.
+void vtkRadiosityImageWriter::WriteImage(vtkImageData* image) {
   if (!std::ofstream(this->FileName, std::ios::app)) {
     this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
     throw lambert::Error(std::string("The picture ") + this->FileName + " cannot be written.");
   }
+  vtkNew<vtkImageShrink3D> average;
+  average->SetInputData(image);
+  average->SetShrinkFactors(kSupersampling, kSupersampling, 1);
+  average->AveragingOn();
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputConnection(average->GetOutputPort());
   writer->SetFileName(this->FileName);

@@ -14,8 +14,10 @@
 #define vtkRadiosityImageWriter_h
 
 #include "lambertDisplayModule.h"
+#include "vtkSmartPointer.h"  // for pictures
 #include "vtkWriter.h"
 
+class vtkImageData;
 class vtkPolyData;
 class vtkRenderer;
 
@@ -69,7 +71,8 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityImageWriter : public vtkWriter {
   vtkRadiosityImageWriter(const vtkRadiosityImageWriter&) = delete;
   void operator=(const vtkRadiosityImageWriter&) = delete;
   void PlaceCamera(vtkRenderer* renderer, vtkPolyData* colored);
-  void Draw(vtkPolyData* colored);
+  vtkSmartPointer<vtkImageData> Draw(vtkPolyData* data, const char* colors, int width, int height);
+  void WriteImage(vtkImageData* image);
 
   char* FileName = nullptr;
   int Size[2] = {960, 720};

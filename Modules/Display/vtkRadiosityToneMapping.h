@@ -33,7 +33,7 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityToneMapping : public vtkPolyDataAlgorith
   double GetExposure();
   ///@}
   ///@{ Keyed luminance that reaches full white; default 0: a hundredth of the lit area may burn
-  ///out.
+  /// out.
   void SetWhite(double white);
   double GetWhite();
   ///@}

@@ -28,12 +28,16 @@ class BrightnessGrid {
     area_.assign(count, 0);
     light_.assign(count, 0);
     for (int64_t face = 0; face < mesh.FaceCount(); ++face) Rasterize(mesh, radiosity, face);
+    FindUsualBrightness();
   }
 
   const Box3f& Bounds() const { return bounds_; }
   float CellSize() const { return cell_; }
   bool Contains(const Vec3f& p) const { return Index(p) >= 0; }
   bool IsFree(const Vec3f& p) const { return Index(p) >= 0 && area_[size_t(Index(p))] == 0; }
+
+  /// Median brightness of what is lit; 1 where nothing is.
+  float UsualBrightness() const { return usual_; }
 
   /// What a ray meets first.
   struct View {
@@ -90,8 +94,18 @@ class BrightnessGrid {
     }
   }
 
+  void FindUsualBrightness() {
+    std::vector<float> lit;
+    for (size_t i = 0; i < area_.size(); ++i) {
+      if (light_[i] > 0) lit.push_back(light_[i] / area_[i]);
+    }
+    if (lit.empty()) return;
+    std::nth_element(lit.begin(), lit.begin() + std::ptrdiff_t(lit.size() / 2), lit.end());
+    usual_ = lit[lit.size() / 2];
+  }
+
   Box3f bounds_;
-  float cell_ = 1;
+  float cell_ = 1, usual_ = 1;
   std::array<int, 3> cells_{1, 1, 1};
   std::vector<float> area_, light_;
 };
@@ -120,25 +134,26 @@ double OpenFraction(const BrightnessGrid& grid, const Vec3f& axis, float minimum
 }
 
 /// How much there is to see: depth and light, each bounded so that neither a lamp nor a corridor
-/// decides alone.
+/// decides alone. What is near or dark speaks against a view.
 double ViewScore(const BrightnessGrid& grid, const Vec3f& eye, const Vec3f& forward,
                  double aspect) {
   constexpr int kRows = 7, kColumns = 9;
   const float halfHeight = float(std::tan(kRoomFieldOfView * kPi / 360));
   const Vec3f right = Normalize(Cross(forward, Vec3f(0, 1, 0))), up = Cross(right, forward);
-  const float diagonal = grid.Bounds().Diagonal();
-  double logLight = 0, depth = 0, near = 0;
+  const float usual = grid.UsualBrightness(), diagonal = grid.Bounds().Diagonal();
+  double score = 0;
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
       const float u = (2 * (float(column) + 0.5f) / kColumns - 1) * halfHeight * float(aspect);
       const float v = (2 * (float(row) + 0.5f) / kRows - 1) * halfHeight;
       const auto view = grid.Look(eye, Normalize(forward + right * u + up * v));
-      logLight += view.escaped ? 0 : std::log1p(double(view.brightness));
-      depth += view.escaped ? 0 : view.distance / diagonal;
-      near += view.distance < 3 * grid.CellSize();
+      if (view.escaped) continue;
+      const double light = view.brightness / (view.brightness + usual);
+      const double depth = std::min(0.5, double(view.distance / diagonal));
+      score += light < 0.1 || view.distance < 4 * grid.CellSize() ? -0.1 : light * depth;
     }
   }
-  return depth * logLight / (1 + near * near);
+  return score;
 }
 
 Camera ViewFromWithin(const BrightnessGrid& grid, double aspect) {
@@ -173,8 +188,8 @@ Camera ViewFromWithin(const BrightnessGrid& grid, double aspect) {
   return best;
 }
 
-/// A ball of `radius` about the middle of the bounds fills the view, seen from outside along `direction`.
-/// before its middle.
+/// A ball of `radius` about the middle of the bounds fills the view, seen from outside along
+/// `direction`. before its middle.
 Camera FramingView(const Box3f& bounds, const Vec3f& direction, double radius, double aspect) {
   Camera camera;
   const double half = camera.verticalFieldOfView * kPi / 360;
