@@ -386,7 +386,7 @@ def plant():
     outer = smooth([(0.13, 0.003), (0.15, 0.10), (0.18, 0.28), (0.19, 0.34)], 30)
     inner = smooth([(0.178, 0.34), (0.168, 0.30)], 6)
     profile = [(0, 0), (0.13, 0)] + [tuple(p) for p in outer] + [tuple(p) for p in inner] + [(0.1665, 0.295)]
-    add("Pot", "Pot", move(lathe(profile, 56), (x, GAP, z)))
+    add("Pot", "Pot", move(lathe(profile, 48), (x, GAP, z)))
     soil = sheet(lambda s, t: [0.1665 * s * np.cos(2 * np.pi * t), 0.2955 + 0.006 * (1 - s) * np.sin(9 * t * np.pi) * s,
                                0.1665 * s * np.sin(2 * np.pi * t)], 8, 49)
     add("Soil", "Soil", soil, offset=(x, GAP, z))
