@@ -2,6 +2,7 @@
 import json
 import os
 import subprocess
+import sys
 
 LAMBERT = os.path.join(os.environ["LAMBERT_BIN_DIR"], "lambert")
 DATA = os.environ["LAMBERT_DATA_DIR"]
@@ -10,7 +11,8 @@ CORNELL_BOX = os.path.join(DATA, "CornellBox", "CornellBox.obj")
 
 def temporary(name):
     """A path for a file of this test that does not exist yet."""
-    folder = os.path.join(os.environ["LAMBERT_TEMPORARY_DIR"], "CommandLine")
+    script = os.path.splitext(os.path.basename(sys.argv[0]))[0]  # Tests may run side by side.
+    folder = os.path.join(os.environ["LAMBERT_TEMPORARY_DIR"], script)
     os.makedirs(folder, exist_ok=True)
     path = os.path.join(folder, name)
     if os.path.exists(path):
