@@ -56,6 +56,19 @@ struct Element {
   bool IsVolume() const { return kind == ElementKind::Volume; }
 };
 
+/// Projected area over area of what an element turns toward the unit vector `direction`: by the
+/// vector area; where normals span more than a hemisphere, what the vector area hides still shows a
+/// quarter of its area, and so does a volume.
+inline float FacingFraction(const Element& element, const Vec3f& direction) {
+  if (element.IsVolume()) return 0.25f;
+  if (!(element.area > 0)) return 0;
+  float projected = std::max(0.f, Dot(element.vectorArea, direction));
+  if (element.coneAngle > float(kPi) / 2) {
+    projected += 0.25f * std::max(0.f, element.area - Length(element.vectorArea));
+  }
+  return projected / element.area;
+}
+
 /// Light arriving at a place: a vector that any normal may be dotted with (4.12), and what comes
 /// from all around alike.
 struct VectorIrradiance {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "Common/Core/Timer.h"
 #include "Radiosity/Core/EnergyBalance.h"
@@ -22,7 +23,10 @@ constexpr double kFirstThreshold = 1e-2;
 constexpr double kThresholdFactor = 0.25;
 /// Bounces are followed until the radiosity changes by less than this in a sweep.
 constexpr double kSweepTolerance = 1e-3, kLastSweepTolerance = 1e-5;
-constexpr int kMaximumSweeps = 200;
+constexpr int kMaximumSweeps = 500;
+constexpr float kLooseRowSum = 1.25f;
+/// Light grows where the change has not fallen after this many sweeps.
+constexpr int kGrowthSweeps = 10;
 
 /// Threshold, as a fraction of the power, that gives a wanted relative error; measured
 /// (Documentation/Stages).
@@ -84,14 +88,7 @@ struct HierarchicalRadiosity::Implementation {
   double
       received;  ///< power that the leaves receive, W, largest band; thresholds are fractions of it
 
-  double Exchange(double tolerance) {
-    BoundRowSums(hierarchy, network, &light);
-    double change = 1;
-    for (int sweep = 0; sweep < kMaximumSweeps && change > tolerance; ++sweep) {
-      change = ExchangeLight(hierarchy, network, &light);
-    }
-    return change;
-  }
+  double Exchange(double tolerance);
   void Count();
 };
 
@@ -109,47 +106,72 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
   const double last = FinalThreshold(self.options.error);
   const int iterations = std::max(
       1, 1 + int(std::ceil(std::log(last / kFirstThreshold) / std::log(kThresholdFactor))));
-  double lastIteration = 0;
+  double threshold = kFirstThreshold;
   for (int iteration = 1;; ++iteration) {
     const Timer iterationTimer;
-    const double threshold =
-        std::max(last, kFirstThreshold * std::pow(kThresholdFactor, iteration - 1));
-
-    // Refine, then let light bounce.
     const double done = double(iteration - 1) / iterations, share = 1.0 / iterations;
     const ProgressCallback part = [&](double fraction, const char* stage) {
       return Report(progress, std::min(1.0, done + share * fraction), stage);
     };
-    if (!RefineLinks(threshold * self.received, self.rayScene, &self.hierarchy, &self.light,
-                     &self.network, part)) {
+
+    // Refine, then let light bounce; the first iteration goes on until there is light to show.
+    double change = 0;
+    bool whole = true;
+    for (;; threshold *= kThresholdFactor) {
+      threshold = std::max(last, threshold);
+      whole = RefineLinks(threshold * self.received, self.rayScene, &self.hierarchy, &self.light,
+                          &self.network, part);
+      if (!whole) break;
+      change = self.Exchange(threshold <= last ? kLastSweepTolerance : kSweepTolerance);
+      if (threshold <= last || ReceivedPower(self.hierarchy, self.light) > 0) break;
+    }
+    if (!whole) {
       statistics.stoppedBy = "interrupt";
       break;
     }
     const bool isLast = threshold <= last;
-    const double change = self.Exchange(isLast ? kLastSweepTolerance : kSweepTolerance);
     self.received = std::max(self.received, ReceivedPower(self.hierarchy, self.light));
 
     // The border of an iteration: the only place where a run ends.
     statistics.history.push_back({iteration, timer.Seconds(), threshold, self.hierarchy.Size(),
                                   self.network.Count(), self.network.rays, change});
     const bool goOn = !observer || observer(statistics.history.back());
-    lastIteration = iterationTimer.Seconds();
-    if (!goOn || !Report(progress, std::min(1.0, double(iteration) / iterations), "iterating")) {
-      statistics.stoppedBy = "interrupt";
-    } else if (self.options.iterations > 0 && iteration >= self.options.iterations) {
+    if (self.options.iterations > 0 && iteration >= self.options.iterations) {
       statistics.stoppedBy = "iterations";
     } else if (isLast && self.options.iterations <= 0) {
       statistics.stoppedBy = self.network.linksAtFloor > 0 ? "floor" : "error";
+    } else if (!goOn ||
+               !Report(progress, std::min(1.0, double(iteration) / iterations), "iterating")) {
+      statistics.stoppedBy = "interrupt";
     } else if (self.options.timeLimit > 0 &&
-               timer.Seconds() + lastIteration > self.options.timeLimit) {
+               timer.Seconds() + iterationTimer.Seconds() > self.options.timeLimit) {
       statistics.stoppedBy = "time";
     } else {
+      threshold *= kThresholdFactor;
       continue;
     }
     break;
   }
   self.Count();
   MeasureEnergyBalance(self.hierarchy, self.network, self.light, self.rayScene, &statistics);
+}
+
+// Bounces until they settle. Loose row sums scatter without bias; where they let light grow, strict
+// ones do not.
+double HierarchicalRadiosity::Implementation::Exchange(double tolerance) {
+  double change = 1;
+  for (const float bound : {kLooseRowSum, 1.f}) {
+    BoundRowSums(hierarchy, network, bound, &light);
+    double changeBefore = std::numeric_limits<double>::max();
+    for (int sweep = 0; sweep < kMaximumSweeps; ++sweep) {
+      change = ExchangeLight(hierarchy, network, &light);
+      if (change <= tolerance) return change;
+      if (sweep % kGrowthSweeps != kGrowthSweeps - 1) continue;
+      if (change >= changeBefore) break;
+      changeBefore = change;
+    }
+  }
+  return change;
 }
 
 // Elements and links by kind.

@@ -55,14 +55,10 @@ struct Change {
 Spectrum ElementIrradiance(const Element& element, const VectorIrradiance& irradiance) {
   Spectrum e;
   for (int band = 0; band < 3; ++band) {
-    float power = std::max(0.f, Dot(element.vectorArea, irradiance.vector[size_t(band)]));
-    // Normals over more than a hemisphere: what the vector area hides still faces the light with a
-    // quarter of its area.
-    if (element.coneAngle > float(kPi) / 2) {
-      const float hidden = std::max(0.f, element.area - Length(element.vectorArea));
-      power += 0.25f * hidden * Length(irradiance.vector[size_t(band)]);
-    }
-    e[band] = (element.area > 0 ? power / element.area : 0) + irradiance.isotropic[band];
+    const Vec3f& vector = irradiance.vector[size_t(band)];
+    const float length = Length(vector);
+    e[band] = irradiance.isotropic[band];
+    if (length > 0) e[band] += FacingFraction(element, vector / length) * length;
   }
   return e;
 }
@@ -93,7 +89,7 @@ VectorIrradiance PushIrradiance(const Element& parent, const VectorIrradiance& i
   return pushed;
 }
 
-void BoundRowSums(const ElementHierarchy& hierarchy, const LinkNetwork& network,
+void BoundRowSums(const ElementHierarchy& hierarchy, const LinkNetwork& network, float bound,
                   ElementLight* light) {
   // The light of a world in which every surface has radiosity 1: the irradiance of a leaf is its
   // row sum.
@@ -114,7 +110,7 @@ void BoundRowSums(const ElementHierarchy& hierarchy, const LinkNetwork& network,
         sum += PushIrradiance(hierarchy[element.parent], unit[size_t(element.parent)], element);
       }
       const float row = ElementIrradiance(element, sum).r;
-      light->rowScale[size_t(index)] = row > 1 ? 1 / row : 1;
+      light->rowScale[size_t(index)] = row > bound ? bound / row : 1;
     });
   }
 }

@@ -13,9 +13,10 @@ double ExchangeLight(const ElementHierarchy& hierarchy, const LinkNetwork& netwo
                      ElementLight* light);
 
 /// Fills `light->rowScale`: of every leaf whose form factors to all it is linked with add up to
-/// more than 1, as sampled ones may, the factor that brings their sum down to 1. With it no bounce
-/// gains energy, and sweeps converge.
-void BoundRowSums(const ElementHierarchy& hierarchy, const LinkNetwork& network,
+/// more than `bound`, as sampled ones may, the factor that brings their sum down to it. With a
+/// bound of 1 no bounce gains energy and sweeps converge; but sums scatter about 1, and to cut
+/// those above it alone darkens the scene.
+void BoundRowSums(const ElementHierarchy& hierarchy, const LinkNetwork& network, float bound,
                   ElementLight* light);
 
 /// Irradiance of an element as a whole: (4.21) before reflection, W/m2.

@@ -12,7 +12,9 @@ namespace {
 
 /// Links that give less than this part of a receiver's light keep their stored visibility: no ray
 /// is worth it.
-constexpr float kNegligiblePart = 2e-3f;
+constexpr float kNegligiblePart = 2e-2f;
+/// Links that give less than this part are not evaluated anew within their triangle.
+constexpr float kFaintPart = 2e-3f;
 
 bool IsWide(const Element& element) { return element.coneAngle > float(kPi) / 2; }
 
@@ -115,6 +117,12 @@ void LightReconstruction::AddLinks(int32_t holder, const Element& receiver, cons
                                      : link.transfer,
                radiosity);
       if (rays) *rays += cast;
+      continue;
+    }
+    // What hardly counts is taken as it is.
+    const float strength = Length(link.transfer) * radiosity.MaxBand();
+    if (castRays && strength < kFaintPart * received) {
+      sum->Add(link.transfer, radiosity);
       continue;
     }
     const Vec3f kernel = UnoccludedTransfer(hierarchy_, source, x, horizon);

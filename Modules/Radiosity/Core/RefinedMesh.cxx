@@ -70,6 +70,29 @@ std::vector<Corner> SortedCorners(const std::vector<LeafTriangle>& triangles,
   return corners;
 }
 
+struct Range {
+  int64_t begin, end;
+};
+
+/// Corners of the same point, points in the order in which triangles first name them: vertex
+/// numbers depend on when the leaves were triangulated before, this order does not.
+std::vector<Range> PointGroups(const std::vector<Corner>& corners) {
+  std::vector<Range> groups;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    if (i > 0 && corners[i].key == corners[i - 1].key) {
+      groups.back().end = int64_t(i) + 1;
+    } else {
+      groups.push_back({int64_t(i), int64_t(i) + 1});
+    }
+  }
+  std::sort(groups.begin(), groups.end(), [&](const Range& a, const Range& b) {
+    const Corner &first = corners[size_t(a.begin)], &second = corners[size_t(b.begin)];
+    return first.triangle != second.triangle ? first.triangle < second.triangle
+                                             : first.corner < second.corner;
+  });
+  return groups;
+}
+
 /// Position, normal and texture coordinate of a vertex number.
 struct VertexReader {
   const TriangleMesh& mesh;
@@ -150,12 +173,8 @@ RadiositySolution MakeRefinedMesh(ElementHierarchy* hierarchy, const LightRecons
 
   // Points: corners that agree in vertex, surface and side.
   const std::vector<Corner> corners = SortedCorners(triangles, input.surfaceId);
-  std::vector<int64_t> firstCorner;
-  for (size_t i = 0; i < corners.size(); ++i) {
-    if (i == 0 || corners[i].key != corners[i - 1].key) firstCorner.push_back(int64_t(i));
-  }
-  const int64_t points = int64_t(firstCorner.size());
-  firstCorner.push_back(int64_t(corners.size()));
+  const std::vector<Range> groups = PointGroups(corners);
+  const int64_t points = int64_t(groups.size());
 
   RadiositySolution solution;
   solution.mesh.positions.resize(size_t(points));
@@ -178,9 +197,9 @@ RadiositySolution MakeRefinedMesh(ElementHierarchy* hierarchy, const LightRecons
     Vec3f faceNormal;
     Spectrum reflectance, emittance;
     float total = 0;
-    const int32_t vertex = int32_t(corners[size_t(firstCorner[size_t(point)])].key & 0xffffffffu);
+    const int32_t vertex = int32_t(corners[size_t(groups[size_t(point)].begin)].key & 0xffffffffu);
     const Vec3f position = vertices.Position(vertex);
-    for (int64_t i = firstCorner[size_t(point)]; i < firstCorner[size_t(point) + 1]; ++i) {
+    for (int64_t i = groups[size_t(point)].begin; i < groups[size_t(point)].end; ++i) {
       const Corner& corner = corners[size_t(i)];
       const LeafTriangle& triangle = triangles[size_t(corner.triangle)];
       solution.mesh.triangles[size_t(corner.triangle)][size_t(corner.corner)] = int32_t(point);
@@ -228,7 +247,8 @@ RadiositySolution MakeRefinedMesh(ElementHierarchy* hierarchy, const LightRecons
   // The input's own points take the brighter of their sides.
   solution.inputIrradiance.assign(input.positions.size(), {});
   for (int64_t point = 0; point < points; ++point) {
-    const uint32_t vertex = uint32_t(corners[size_t(firstCorner[size_t(point)])].key & 0xffffffffu);
+    const uint32_t vertex =
+        uint32_t(corners[size_t(groups[size_t(point)].begin)].key & 0xffffffffu);
     if (vertex >= input.positions.size()) continue;
     Spectrum& brightest = solution.inputIrradiance[vertex];
     const Spectrum& here = solution.irradiance[size_t(point)];

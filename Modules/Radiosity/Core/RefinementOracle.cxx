@@ -156,10 +156,9 @@ TransferError EstimateError(const PairBound& bound, float radiosity, float varia
   // Visibility: the larger end is what samples miss most of.
   if (visibility >= 0) {
     const float near = bound.nearness * bound.nearness;
-    const float doubt =
-        visibility <= 0   ? kDoubtBlocked + (kDoubtBlockedNear - kDoubtBlocked) * near
-        : visibility >= 1 ? kDoubtClear + (kDoubtClearNear - kDoubtClear) * near
-                          : kDoubtPartial;
+    const float doubt = visibility <= 0 ? kDoubtBlocked + (kDoubtBlockedNear - kDoubtBlocked) * near
+                        : visibility >= 1 ? kDoubtClear + (kDoubtClearNear - kDoubtClear) * near
+                                          : kDoubtPartial;
     const bool splitSource =
         source.radius > 2 * receiver.radius && source.kind != ElementKind::Light;
     (splitSource ? error.bySource : error.byReceiver) += transfer * doubt;

@@ -11,6 +11,9 @@ namespace lambert {
 namespace {
 
 constexpr int kSkyDirections = 64;
+/// A cluster that shows less of its area than this to a direction is not made brighter to keep its
+/// power.
+constexpr float kLeastFacing = 0.05f;
 
 /// Directions over the hemisphere about +z with equal solid angle (spherical Fibonacci lattice).
 const std::array<Vec3f, kSkyDirections>& SkyDirections() {
@@ -117,12 +120,6 @@ bool RayTarget(const ElementHierarchy& hierarchy, const Element& source, int k, 
   return height > 0;
 }
 
-/// The clip plane of a place on a receiver: volumes receive from everywhere.
-Vec3f Horizon(const Element& receiver, const SurfaceSample& sample) {
-  if (receiver.IsVolume()) return {};
-  return receiver.IsPolygon() ? receiver.axis : sample.normal;
-}
-
 }  // namespace
 
 Vec3f UnoccludedTransfer(const ElementHierarchy& hierarchy, const Element& source, const Vec3f& x,
@@ -169,51 +166,72 @@ Vec3f SkyTransfer(const RayScene& rayScene, const Vec3f& x, const Vec3f& horizon
   return sum * float(2 * kPi / kSkyDirections);
 }
 
+namespace {
+
+/// Visible part of the source from one sample of the receiver: by the partner sample, or by all.
+float PartnerVisibility(const ElementHierarchy& hierarchy, const RayScene& rayScene,
+                        const Element& source, int partner, const Vec3f& x, const Vec3f& horizon,
+                        int64_t* rays) {
+  for (int j = 0; j < kSamplesPerElement; ++j) {
+    Vec3f target;
+    float weight;
+    const int k = (partner + j) % kSamplesPerElement;
+    if (!RayTarget(hierarchy, source, k, x, horizon, &target, &weight)) continue;
+    ++*rays;
+    return rayScene.Occluded(x, target) ? 0.f : 1.f;
+  }
+  return 1;
+}
+
+/// The vector along `transfer` that gives a receiver with normals of many directions the irradiance
+/// that its samples, each with its own normal, receive: the samples that turn away must not thin
+/// out the light of those that do not.
+Vec3f KeepPower(const Element& receiver, const Vec3f& transfer, float received) {
+  const Vec3f direction = Normalize(transfer);
+  const float facing = std::max(FacingFraction(receiver, direction), kLeastFacing);
+  return direction * std::min(received / facing, receiver.IsVolume() ? 4.f : 1.f);
+}
+
+TransferEstimate EstimateSkyTransfer(const RayScene& rayScene, const Element& receiver) {
+  TransferEstimate estimate;
+  for (const SurfaceSample& sample : receiver.samples) {
+    const Vec3f& horizon = receiver.IsPolygon() ? receiver.axis : sample.normal;
+    float open = 0;
+    estimate.transfer += SkyTransfer(rayScene, sample.position, horizon, &open, &estimate.rays);
+    estimate.visibility += open / kSamplesPerElement;
+  }
+  estimate.transfer /= float(kSamplesPerElement);
+  return estimate;
+}
+
+}  // namespace
+
 TransferEstimate EstimateTransfer(const ElementHierarchy& hierarchy, const RayScene& rayScene,
                                   const Element& source, const Element& receiver, bool thorough) {
-  TransferEstimate estimate;
   const bool isLight = source.kind == ElementKind::Light;
-  const bool isSky =
-      isLight && hierarchy.GetScene().lights[size_t(source.item)].type == LightType::Sky;
-  float weight = 0, visibleWeight = 0;
+  if (isLight && hierarchy.GetScene().lights[size_t(source.item)].type == LightType::Sky) {
+    return EstimateSkyTransfer(rayScene, receiver);
+  }
+  TransferEstimate estimate;
+  float weight = 0, visibleWeight = 0, received = 0;
   for (int k = 0; k < kSamplesPerElement; ++k) {
     const SurfaceSample& sample = receiver.samples[size_t(k)];
-    const Vec3f horizon = Horizon(receiver, sample);
-    if (isSky) {
-      float open = 0;
-      estimate.transfer += SkyTransfer(rayScene, sample.position, horizon, &open, &estimate.rays);
-      weight += 1;
-      visibleWeight += open;
-      continue;
-    }
+    const Vec3f& horizon = receiver.IsPolygon() ? receiver.axis : sample.normal;
     const Vec3f kernel = UnoccludedTransfer(hierarchy, source, sample.position, horizon);
     const float size = Length(kernel);
     if (!(size > 0)) continue;
-
-    // Visibility from this place: of the partner sample, or of all of them.
-    float visible = 1;
-    if (thorough || isLight) {
-      visible =
-          VisibleFraction(hierarchy, rayScene, source, sample.position, horizon, &estimate.rays);
-    } else {
-      Vec3f target;
-      float pairWeight;
-      for (int j = 0; j < kSamplesPerElement; ++j) {
-        if (!RayTarget(hierarchy, source, (k + j) % kSamplesPerElement, sample.position, horizon,
-                       &target, &pairWeight)) {
-          continue;
-        }
-        ++estimate.rays;
-        visible = rayScene.Occluded(sample.position, target) ? 0.f : 1.f;
-        break;
-      }
-    }
-    estimate.transfer += kernel * visible;
+    const float visible =
+        thorough || isLight
+            ? VisibleFraction(hierarchy, rayScene, source, sample.position, horizon, &estimate.rays)
+            : PartnerVisibility(hierarchy, rayScene, source, k, sample.position, horizon,
+                                &estimate.rays);
+    estimate.transfer += kernel * (visible / kSamplesPerElement);
+    received += Dot(kernel, horizon) * (visible / kSamplesPerElement);
     weight += size;
     visibleWeight += size * visible;
   }
-  estimate.transfer /= float(kSamplesPerElement);
   estimate.visibility = weight > 0 ? visibleWeight / weight : 0;
+  if (!receiver.IsPolygon()) estimate.transfer = KeepPower(receiver, estimate.transfer, received);
   return estimate;
 }
 
