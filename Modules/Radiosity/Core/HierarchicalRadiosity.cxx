@@ -6,6 +6,7 @@
 
 #include "Common/Core/Timer.h"
 #include "Radiosity/Core/EnergyBalance.h"
+#include "Radiosity/Core/ExposureSplitting.h"
 #include "Radiosity/Core/LightExchange.h"
 #include "Radiosity/Core/LightReconstruction.h"
 #include "Radiosity/Core/LinkRefinement.h"
@@ -24,6 +25,8 @@ constexpr double kThresholdFactor = 0.25;
 /// Bounces are followed until the radiosity changes by less than this in a sweep.
 constexpr double kSweepTolerance = 1e-3, kLastSweepTolerance = 1e-5;
 constexpr int kMaximumSweeps = 500;
+/// Half-hidden leaves are split while they receive more than this many thresholds.
+constexpr double kExposureThreshold = 0.1;
 constexpr float kLooseRowSum = 1.25f;
 /// Light grows where the change has not fallen after this many sweeps.
 constexpr int kGrowthSweeps = 10;
@@ -85,6 +88,7 @@ struct HierarchicalRadiosity::Implementation {
   ElementHierarchy hierarchy;
   ElementLight light;
   LinkNetwork network;
+  std::vector<Exposure> exposures;
   double
       received;  ///< power that the leaves receive, W, largest band; thresholds are fractions of it
 
@@ -130,6 +134,10 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
       break;
     }
     const bool isLast = threshold <= last;
+    SplitByExposure(kExposureThreshold * threshold * self.received, self.rayScene, &self.hierarchy,
+                    &self.light, &self.network, &self.exposures);
+    self.network.incoming.resize(size_t(self.hierarchy.Size()));
+    self.Exchange(isLast ? kLastSweepTolerance : kSweepTolerance);
     self.received = std::max(self.received, ReceivedPower(self.hierarchy, self.light));
 
     // The border of an iteration: the only place where a run ends.

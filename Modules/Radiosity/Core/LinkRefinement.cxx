@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "Common/Core/Parallel.h"
+#include "Radiosity/Core/LightExchange.h"
 #include "Radiosity/Core/RefinementOracle.h"
 #include "Radiosity/Core/Transfer.h"
 
@@ -24,6 +25,13 @@ struct Judgement {
   Link link;
   int32_t rays = 0;
 };
+
+/// Visibility as a byte; fractions between none and all stay between.
+uint8_t Quantize(float visibility) {
+  if (visibility <= 0) return 0;
+  if (visibility >= 1) return 255;
+  return uint8_t(std::min(254.f, std::max(1.f, visibility * 255 + 0.5f)));
+}
 
 /// Looks at pairs of elements without changing anything; safe from several threads.
 class Judge {
@@ -114,13 +122,6 @@ class Judge {
       return source.radius > receiver.radius ? Verdict::SplitSource : Verdict::SplitReceiver;
     }
     return error.bySource > error.byReceiver ? Verdict::SplitSource : Verdict::SplitReceiver;
-  }
-
-  /// Fractions between none and all stay between.
-  static uint8_t Quantize(float visibility) {
-    if (visibility <= 0) return 0;
-    if (visibility >= 1) return 255;
-    return uint8_t(std::min(254.f, std::max(1.f, visibility * 255 + 0.5f)));
   }
 
   const float threshold_;
@@ -304,6 +305,43 @@ bool RefineLinks(double threshold, const RayScene& rayScene, ElementHierarchy* h
     pairs.swap(next);
   }
   return true;
+}
+
+void PushLinksToChildren(const std::vector<int32_t>& parents, float part, const RayScene& rayScene,
+                         const ElementHierarchy& hierarchy, const ElementLight& light,
+                         LinkNetwork* network) {
+  network->incoming.resize(size_t(hierarchy.Size()));
+  std::vector<int64_t> rays(parents.size(), 0);
+  ParallelForEach(int64_t(parents.size()), 4, [&](int64_t i) {
+    // The parent keeps its faint links; children are its alone, so that no other thread writes to
+    // them.
+    const int32_t index = parents[size_t(i)];
+    const Element& parent = hierarchy[index];
+    const float received = ElementIrradiance(parent, light.irradiance[size_t(index)]).MaxBand();
+    std::vector<Link>& links = network->incoming[size_t(index)];
+    size_t kept = 0;
+    for (const Link& link : links) {
+      const float radiosity = light.radiosity[size_t(link.source)].MaxBand();
+      const PairBound bound = BoundPair(hierarchy, hierarchy[link.source], parent);
+      if (!link.isSampled || bound.formFactor * radiosity <= part * received) {
+        links[kept++] = link;
+        continue;
+      }
+      for (int32_t child = parent.child; child < parent.child + parent.childCount; ++child) {
+        const Element& source = hierarchy[link.source];
+        if (BoundPair(hierarchy, source, hierarchy[child]).apart) continue;
+        const TransferEstimate estimate =
+            EstimateTransfer(hierarchy, rayScene, source, hierarchy[child], true);
+        rays[size_t(i)] += estimate.rays;
+        Link pushed = link;
+        pushed.transfer = estimate.transfer;
+        pushed.visibility = Quantize(estimate.visibility);
+        network->incoming[size_t(child)].push_back(pushed);
+      }
+    }
+    links.resize(kept);
+  });
+  for (const int64_t cast : rays) network->rays += cast;
 }
 
 }  // namespace lambert

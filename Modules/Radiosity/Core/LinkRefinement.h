@@ -44,4 +44,11 @@ void MakeInitialLinks(const ElementHierarchy& hierarchy, LinkNetwork* network);
 bool RefineLinks(double threshold, const RayScene& rayScene, ElementHierarchy* hierarchy,
                  ElementLight* light, LinkNetwork* network, const ProgressCallback& progress = {});
 
+/// Gives the children of each of `parents` links of their own in place of those of the parent's
+/// links that bring more than `part` of its light: for children of which some are hidden and some
+/// open.
+void PushLinksToChildren(const std::vector<int32_t>& parents, float part, const RayScene& rayScene,
+                         const ElementHierarchy& hierarchy, const ElementLight& light,
+                         LinkNetwork* network);
+
 }  // namespace lambert

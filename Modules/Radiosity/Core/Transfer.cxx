@@ -188,8 +188,15 @@ float PartnerVisibility(const ElementHierarchy& hierarchy, const RayScene& raySc
 /// out the light of those that do not.
 Vec3f KeepPower(const Element& receiver, const Vec3f& transfer, float received) {
   const Vec3f direction = Normalize(transfer);
-  const float facing = std::max(FacingFraction(receiver, direction), kLeastFacing);
-  return direction * std::min(received / facing, receiver.IsVolume() ? 4.f : 1.f);
+  float facing = 0;
+  if (receiver.IsVolume()) {
+    for (const SurfaceSample& sample : receiver.samples) {
+      facing += std::max(0.f, Dot(sample.normal, direction)) / kSamplesPerElement;
+    }
+  } else {
+    facing = FacingFraction(receiver, direction);
+  }
+  return direction * std::min(received / std::max(facing, kLeastFacing), 1.f);
 }
 
 TransferEstimate EstimateSkyTransfer(const RayScene& rayScene, const Element& receiver) {
