@@ -10,8 +10,11 @@ namespace lambert {
 
 namespace {
 
-/// Links that give less than this part of a receiver's light keep their stored visibility: no ray
-/// is worth it.
+/// Points are evaluated this far toward the middle of their element, so that corners do not see through
+/// walls.
+constexpr float kInset = 1e-3f;
+/// Links that give less than this part of a receiver's light keep their stored visibility: no ray is
+/// worth it.
 constexpr float kNegligiblePart = 2e-2f;
 /// Links that give less than this part are not evaluated anew within their triangle.
 constexpr float kFaintPart = 2e-3f;
@@ -56,25 +59,49 @@ bool LightReconstruction::IsCluster(int32_t element) const {
   return e.kind == ElementKind::Face && !e.IsPolygon();
 }
 
-VectorIrradiance LightReconstruction::At(int32_t leaf, const Vec3f& x, int64_t* rays) const {
-  const float scale = light_.rowScale[size_t(leaf)];
-  if (IsCluster(leaf)) return Interpolate(leaf, x) * scale;
-  const Element& receiver = hierarchy_[leaf];
+VectorIrradiance LightReconstruction::At(const Vec3f& x, const std::vector<Share>& shares,
+                                         int64_t* rays) const {
+  // The elements whose links count here: leaves and what is above them within their triangles.
+  // Leaves of one triangle share those, and they are evaluated once.
   VectorIrradiance sum;
-  int32_t index = leaf;
-  for (; !IsCluster(index); index = hierarchy_[index].parent) {
-    AddLinks(index, receiver, x, true, &sum, nullptr, rays);
-    if (hierarchy_[hierarchy_[index].parent].IsVolume()) {
-      sum += FromVolumes(index, x);
-      return sum * scale;
+  std::vector<Share> holders;
+  for (const Share& share : shares) {
+    const float weight = share.weight * light_.rowScale[size_t(share.leaf)];
+    const Vec3f place = x + (share.inside - x) * kInset;
+    if (IsCluster(share.leaf)) {
+      sum += Interpolate(share.leaf, place) * weight;
+      continue;
+    }
+    int32_t index = share.leaf;
+    for (bool within = true; within; index = hierarchy_[index].parent) {
+      auto held = std::find_if(holders.begin(), holders.end(),
+                               [&](const Share& h) { return h.leaf == index; });
+      if (held == holders.end()) held = holders.insert(holders.end(), {index, 0.f, Vec3f()});
+      held->weight += weight;
+      held->inside += share.inside * weight;
+      within = hierarchy_[index].kind == ElementKind::Patch;
+      if (!within) sum += FromAbove(index, place) * weight;
     }
   }
-  VectorIrradiance above = Interpolate(index, x);
+  for (const Share& holder : holders) {
+    if (!(holder.weight > 0)) continue;
+    const Vec3f place = x + (holder.inside / holder.weight - x) * kInset;
+    VectorIrradiance own;
+    AddLinks(holder.leaf, hierarchy_[holder.leaf], place, true, &own, nullptr, rays);
+    sum += own * holder.weight;
+  }
+  return sum;
+}
+
+// What a single triangle has from the clusters or volumes above it, clipped at its plane.
+VectorIrradiance LightReconstruction::FromAbove(int32_t polygon, const Vec3f& x) const {
+  const Element& receiver = hierarchy_[polygon];
+  if (hierarchy_[receiver.parent].IsVolume()) return FromVolumes(polygon, x);
+  VectorIrradiance above = Interpolate(receiver.parent, x);
   for (Vec3f& vector : above.vector) {
     if (Dot(vector, receiver.axis) <= 0) vector = Vec3f();
   }
-  sum += above;
-  return sum * scale;
+  return above;
 }
 
 // Bilinear between the corners of the cluster's rectangle.

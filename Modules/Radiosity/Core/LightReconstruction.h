@@ -17,15 +17,23 @@ class LightReconstruction {
   LightReconstruction(const ElementHierarchy& hierarchy, const LinkNetwork& network,
                       const ElementLight& light, const RayScene& rayScene);
 
-  /// Irradiance at `x` on the leaf element `leaf`: interpolated over the cluster above it, plus the
-  /// links of the triangle and patches that hold `x`, each with its own kernel and, where the link
-  /// is partly blocked, its own rays.
-  VectorIrradiance At(int32_t leaf, const Vec3f& x, int64_t* rays) const;
+  /// A leaf element that meets a point.
+  struct Share {
+    int32_t leaf;
+    float weight;  ///< shares of a point add up to 1
+    Vec3f inside;  ///< a place within the leaf: it is evaluated a little toward it
+  };
+
+  /// Irradiance at `x`, mean over the leaves that meet there: interpolated over the clusters above
+  /// them, plus the links of the triangles and patches that hold `x`, each with its own kernel and,
+  /// where it is partly blocked, its own rays.
+  VectorIrradiance At(const Vec3f& x, const std::vector<Share>& shares, int64_t* rays) const;
 
  private:
   using Corners = std::array<VectorIrradiance, 4>;
 
   bool IsCluster(int32_t element) const;
+  VectorIrradiance FromAbove(int32_t polygon, const Vec3f& x) const;
   VectorIrradiance Interpolate(int32_t cluster, const Vec3f& x) const;
   void AddLinks(int32_t holder, const Element& receiver, const Vec3f& x, bool castRays,
                 VectorIrradiance* sum, Spectrum* fluence, int64_t* rays) const;

@@ -9,10 +9,6 @@ namespace lambert {
 
 namespace {
 
-/// Points are evaluated this far toward the middle of their element, so that corners do not see
-/// through walls.
-constexpr float kInset = 1e-3f;
-
 /// Which leaf element stands for each side of a face, and for each patch.
 struct LeafIndex {
   std::array<std::vector<int32_t>, 2> ofFace;
@@ -188,15 +184,10 @@ RadiositySolution MakeRefinedMesh(ElementHierarchy* hierarchy, const LightRecons
 
   // Light at each point: mean over the leaves that meet there, by angle.
   ParallelForEach(points, 64, [&](int64_t point) {
-    struct Share {
-      int32_t leaf;
-      float angle;
-      Vec3f inside;
-    };
-    std::vector<Share> shares;
+    std::vector<LightReconstruction::Share> shares;
     Vec3f faceNormal;
     Spectrum reflectance, emittance;
-    float total = 0;
+    float total = 0, weight = 0;
     const int32_t vertex = int32_t(corners[size_t(groups[size_t(point)].begin)].key & 0xffffffffu);
     const Vec3f position = vertices.Position(vertex);
     for (int64_t i = groups[size_t(point)].begin; i < groups[size_t(point)].end; ++i) {
@@ -217,28 +208,23 @@ RadiositySolution MakeRefinedMesh(ElementHierarchy* hierarchy, const LightRecons
       if (leaf < 0) continue;
       const Vec3f inside = (position + a + b) / 3.f;
       auto same = std::find_if(shares.begin(), shares.end(),
-                               [&](const Share& s) { return s.leaf == leaf; });
-      if (same == shares.end()) {
-        shares.push_back({leaf, angle, inside * angle});
-      } else {
-        same->angle += angle;
-        same->inside += inside * angle;
-      }
+                               [&](const LightReconstruction::Share& s) { return s.leaf == leaf; });
+      if (same == shares.end()) same = shares.insert(shares.end(), {leaf, 0.f, Vec3f()});
+      same->weight += angle;
+      same->inside += inside * angle;
+      weight += angle;
     }
     Vec3f normal = Normalize(vertices.Interpolate(input.normals, vertex));
     if (Dot(normal, faceNormal) < 0) normal = -normal;
-    VectorIrradiance sum;
-    float weight = 0;
-    for (const Share& share : shares) {
-      const Vec3f x = position + (share.inside / share.angle - position) * kInset;
-      sum += light.At(share.leaf, x, &raysOfPoint[size_t(point)]) * share.angle;
-      weight += share.angle;
+    for (LightReconstruction::Share& share : shares) {
+      share.inside /= share.weight;
+      share.weight /= weight;
     }
     const size_t p = size_t(point);
     solution.mesh.positions[p] = position;
     solution.mesh.normals[p] = normal;
     if (!input.uvs.empty()) solution.mesh.uvs[p] = vertices.Interpolate(input.uvs, vertex);
-    if (weight > 0) solution.irradiance[p] = (sum * (1 / weight)).At(normal);
+    solution.irradiance[p] = light.At(position, shares, &raysOfPoint[p]).At(normal);
     solution.radiosity[p] = (reflectance * solution.irradiance[p] + emittance) / total;
   });
   for (const int64_t cast : raysOfPoint) *rays += cast;
