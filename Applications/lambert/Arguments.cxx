@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -29,6 +31,21 @@ std::vector<double> ParseNumbers(const std::string& text, char separator) {
   return numbers;
 }
 
+/// A finite number from `low` to `high`. CLI11's own ranges let NaN pass.
+CLI::Validator Within(double low, double high, const std::string& description) {
+  return CLI::Validator(
+      [=](const std::string& text) {
+        const std::vector<double> number = ParseNumbers(text, ',');
+        const bool good = number.size() == 1 && number[0] >= low && number[0] <= high;
+        return good ? std::string() : "\"" + text + "\" is not a number " + description;
+      },
+      "");
+}
+
+CLI::Validator NotNegative() {
+  return Within(0, std::numeric_limits<float>::max(), "of 0 or more");
+}
+
 }  // namespace
 
 void SceneArguments::AddTo(CLI::App* command) {
@@ -40,7 +57,7 @@ void SceneArguments::AddTo(CLI::App* command) {
   command
       ->add_option("--reflectance", reflectance, "Reflectance R G B of faces whose file gives none")
       ->expected(3)
-      ->check(CLI::Range(0., 1.))
+      ->check(Within(0, 1, "from 0 to 1"))
       ->capture_default_str();
   command->add_flag("--two-sided-emitters", twoSidedEmitters,
                     "Every emitter emits from both sides");
@@ -55,7 +72,7 @@ void SceneArguments::AddTo(CLI::App* command) {
   command->add_flag("--no-orient", noOrient, "Do not wind pieces consistently");
   command->add_flag("--no-emitter-fix", noEmitterFix, "Do not turn inverted emitters");
   command->add_option("--feature-angle", featureAngle, "Degrees within which normals are smoothed")
-      ->check(CLI::Range(0., 180.))
+      ->check(Within(0, 180, "from 0 to 180"))
       ->capture_default_str();
 }
 
@@ -81,10 +98,10 @@ void SolveArguments::AddTo(CLI::App* command) {
   // How well and how long.
   command->add_option("-o,--output", output, "Solved scene, .vtp or .ply")->required();
   command->add_option("--error", solver.error, "Wanted relative RMS error of irradiance, (0, 1]")
-      ->check(CLI::Range(1e-6, 1.))
+      ->check(Within(1e-6, 1, "from 1e-6 to 1"))
       ->capture_default_str();
   command->add_option("--time", time, "Seconds since the program began, writing included")
-      ->check(CLI::PositiveNumber);
+      ->check(Within(1e-3, 1e9, "from 0.001 to 1e9"));
   command->add_option("--iterations", solver.iterations, "Iterations after which to end")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--threads", threads, "Threads; 0: all processors")
@@ -92,7 +109,7 @@ void SolveArguments::AddTo(CLI::App* command) {
       ->capture_default_str();
   command->add_option("--sky", sky, "Radiance R G B of a constant sky, W/(m2 sr)")
       ->expected(3)
-      ->check(CLI::NonNegativeNumber);
+      ->check(NotNegative());
 
   // What comes out beside the solution.
   command->add_option("--probe", probe, "CSV of probe points: x,y,z,nx,ny,nz");
@@ -102,6 +119,7 @@ void SolveArguments::AddTo(CLI::App* command) {
   command->add_option("--size", size, "Size of the picture, WxH pixels")->capture_default_str();
   command->add_option("--camera", camera, "px,py,pz,fx,fy,fz[,fov]: eye, point looked at, degrees");
   command->add_option("--exposure", exposure, "Stops (EV) brighter or darker")
+      ->check(Within(-100, 100, "from -100 to 100"))
       ->capture_default_str();
   command->add_flag("--both-sides", bothSides, "PLY: keep both lit sides of a face");
   command->add_option("--report", report, "Account of the run, JSON");
@@ -125,15 +143,40 @@ void SolveArguments::Check() const {
   if (probe.empty() != probeOutput.empty()) {
     throw CLI::ValidationError("--probe", "--probe and --probe-output belong together");
   }
-  if (!std::isfinite(exposure)) throw CLI::ValidationError("--exposure", "not a finite number");
+  const std::string imageEnding = std::filesystem::path(image).extension().string();
+  if (!image.empty() && imageEnding != ".png" && imageEnding != ".PNG") {
+    throw CLI::ValidationError("--image", "the name has to end in .png");
+  }
+  RequireDifferentFiles();
   ImageSize();
   ImageCamera();
 }
 
+void SolveArguments::RequireDifferentFiles() const {
+  namespace fs = std::filesystem;
+  std::map<std::string, std::string> uses;  // A file, and the option that names it.
+  const auto add = [&](const std::string& option, const std::string& name, bool isOutput) {
+    if (name.empty()) return;
+    std::error_code ignored;
+    const fs::path place = fs::weakly_canonical(fs::absolute(name, ignored), ignored);
+    if (fs::is_character_file(place, ignored) || fs::is_fifo(place, ignored)) return;
+    const auto [other, isNew] = uses.emplace(place.empty() ? name : place.string(), option);
+    if (!isNew && isOutput) {
+      throw CLI::ValidationError(option, "would write over the file of " + other->second);
+    }
+  };
+  for (const std::string& name : scene.files) add("SCENE", name, false);
+  add("--probe", probe, false);
+  add("--output", output, true);
+  add("--probe-output", probeOutput, true);
+  add("--image", image, true);
+  add("--report", report, true);
+}
+
 std::array<int, 2> SolveArguments::ImageSize() const {
   const std::vector<double> numbers = ParseNumbers(size, 'x');
-  if (numbers.size() != 2 || numbers[0] < 1 || numbers[1] < 1 || numbers[0] > 8192 ||
-      numbers[1] > 8192) {
+  const auto isSide = [](double n) { return n >= 1 && n <= 8192 && n == std::floor(n); };
+  if (numbers.size() != 2 || !isSide(numbers[0]) || !isSide(numbers[1])) {
     throw CLI::ValidationError("--size", "needs WxH, 1 to 8192 pixels each");
   }
   return {int(numbers[0]), int(numbers[1])};

@@ -1,6 +1,7 @@
 // What the command line asks for.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,6 +54,10 @@ struct SolveArguments {
   /// The camera that was asked for, if any.
   std::optional<Camera> ImageCamera() const;
   RadiosityRunOptions RunOptions() const;
+
+ private:
+  /// Throws CLI::ValidationError where an output would write over another file of the run.
+  void RequireDifferentFiles() const;
 };
 
 struct InfoArguments {

@@ -70,6 +70,17 @@ void WriteReport(const std::string& fileName, const RadiosityRun& run) {
   if (!file.flush()) throw Error("The report " + fileName + " could not be written.");
 }
 
+/// An interrupt leaves the error unmeasured; the report is written all the same.
+void Verify(const SolveArguments& arguments, const ProgressCallback& progress,
+            ProgressDisplay* display, RadiosityRun* run) {
+  display->Begin("verifying");
+  try {
+    run->Verify(arguments.verifyPoints, progress);
+  } catch (const Cancelled&) {
+    display->Say("Interrupted: the error stays unmeasured.");
+  }
+}
+
 void PrintSummary(const SolveArguments& arguments, const RadiosityRun& run) {
   const SolverStatistics& s = run.Statistics();
   const TriangleMesh& mesh = run.Solution().mesh;
@@ -133,13 +144,7 @@ int Solve(const SolveArguments& arguments) {
   if (!arguments.image.empty()) {
     Stage("image", &display, &run, [&] { WriteImage(arguments, run); });
   }
-  if (arguments.verifyPoints > 0 && !IsInterrupted()) {
-    display.Begin("verifying");
-    run.Verify(arguments.verifyPoints, [&](double fraction, const char* stage) {
-      display.Update(fraction, stage);
-      return true;
-    });
-  }
+  if (arguments.verifyPoints > 0 && !IsInterrupted()) Verify(arguments, progress, &display, &run);
   if (!arguments.report.empty()) WriteReport(arguments.report, run);
   display.EndStage();
   display.Finish();

@@ -14,6 +14,11 @@ using Json = nlohmann::ordered_json;
 Json ToJson(const Spectrum& s) { return {s.r, s.g, s.b}; }
 Json ToJson(const Vec3f& v) { return {v.x, v.y, v.z}; }
 
+/// File and material names may not be UTF-8: what is not is replaced.
+std::string ToText(const Json& report) {
+  return report.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
 Json SceneJson(const RadiosityRun& run) {
   const SceneSummary s = SummarizeScene(run.GetScene());
   const ReadReport& reading = run.Reading();
@@ -124,7 +129,7 @@ void AddSceneAndCleanUp(const RadiosityRun& run, Json* report) {
 std::string SceneReportJson(const RadiosityRun& run) {
   Json report;
   AddSceneAndCleanUp(run, &report);
-  return report.dump(2);
+  return ToText(report);
 }
 
 std::string RunReportJson(const RadiosityRun& run, const std::string& version) {
@@ -161,6 +166,6 @@ std::string RunReportJson(const RadiosityRun& run, const std::string& version) {
   if (run.Error()) {
     report["error"] = ErrorJson(*run.Error());
   }
-  return report.dump(2);
+  return ToText(report);
 }
 }  // namespace lambert

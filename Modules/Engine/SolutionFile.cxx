@@ -9,12 +9,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
-
-#include <unistd.h>
 
 namespace lambert {
 namespace {
@@ -27,6 +26,13 @@ std::string Extension(const std::string& fileName) {
   return extension;
 }
 
+bool EndsWith(const std::string& fileName, const std::string& end) {
+  std::ifstream file(fileName, std::ios::binary);
+  std::string tail(end.size(), ' ');
+  file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+  return file.read(tail.data(), static_cast<std::streamsize>(tail.size())) && tail == end;
+}
+
 void WriteVtp(const RadiositySolution& solution, const std::string& fileName) {
   vtkNew<vtkPolyData> data;
   PolyDataFromSolution(solution, data);
@@ -36,7 +42,8 @@ void WriteVtp(const RadiositySolution& solution, const std::string& fileName) {
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetCompressorTypeToLZ4();  // zlib takes longer than many a solution.
-  if (!writer->Write()) {
+  // A full disk is no error to VTK's writer: see whether the end arrived.
+  if (!writer->Write() || writer->GetErrorCode() != 0 || !EndsWith(fileName, "</VTKFile>\n")) {
     throw Error("The file " + fileName + " could not be written.");
   }
 }
@@ -126,9 +133,16 @@ void RequireWritable(const std::string& fileName) {
   if (fs::is_directory(path, ignored)) {
     throw Error("The output " + fileName + " cannot be written: it is a folder.");
   }
-  const fs::path& target = fs::exists(path, ignored) ? path : folder;
-  if (access(target.c_str(), W_OK) != 0) {
-    throw Error("The output " + fileName + " cannot be written: " + std::strerror(errno) + ".");
+  // Rights alone do not say it: try, and leave no trace.
+  const bool isNew = !fs::exists(path, ignored);
+  errno = 0;
+  const bool opens = static_cast<bool>(std::ofstream(fileName, std::ios::app));
+  const int reason = errno;
+  if (!opens) {
+    throw Error("The output " + fileName + " cannot be written: " + std::strerror(reason) + ".");
+  }
+  if (isNew) {
+    fs::remove(path, ignored);
   }
 }
 

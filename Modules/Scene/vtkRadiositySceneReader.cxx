@@ -128,7 +128,7 @@ int vtkRadiositySceneReader::RequestData(vtkInformation*, vtkInformationVector**
     options.ReportJson = lambert::SceneReportJson(read, cleaning);
   } catch (const lambert::Cancelled&) {
     return 1;
-  } catch (const lambert::Error& error) {
+  } catch (const std::exception& error) {
     vtkErrorMacro(<< error.what());
     return 0;
   }

@@ -21,6 +21,19 @@ fails(2, "solve", CORNELL_BOX, "-o", out, "--size", "100", says=["--size"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--camera", "1,2,3", says=["--camera"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--probe", "points.csv", says=["--probe-output"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--no-such-option")
+for option in ("--error", "--time", "--feature-angle", "--exposure"):
+    for number in ("nan", "inf"):
+        fails(2, "solve", CORNELL_BOX, "-o", out, option, number, says=[option, number])
+for option in ("--sky", "--reflectance"):
+    fails(2, "solve", CORNELL_BOX, "-o", out, option, "nan", "1", "1", says=[option, "nan"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--size", "10.5x20", says=["--size"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--image", "picture.jpg", says=[".png"])
+
+# No output may write over what is read or over another output.
+scene = temporary("scene.ply")
+fails(2, "solve", scene, "-o", os.path.join(os.path.dirname(scene), ".", "scene.ply"), says=["write over", "SCENE"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--report", out, says=["write over", "--output"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--probe", out, "--probe-output", out, says=["write over"])
 
 # Scenes that cannot be read or lit: 1.
 fails(1, "solve", "missing.obj", "-o", out, says=["missing.obj"])
@@ -32,13 +45,24 @@ fails(1, "solve", CORNELL_BOX, "-o", out, "--progress", "none", "--set", "NoSuch
 fails(1, "info", "missing.obj", says=["missing.obj"])
 
 # Outputs that cannot be written are refused before the scene is even read.
-for option in ("-o", "--report", "--image"):
-    outputs = {"-o": out, option: "/no/such/folder/file.vtp"}
+for option, ending in (("-o", "vtp"), ("--report", "json"), ("--image", "png")):
+    outputs = {"-o": out, option: "/no/such/folder/file." + ending}
     fails(1, "solve", "missing.obj", *sum(([k, v] for k, v in outputs.items()), []), says=["/no/such/folder"])
 folder = temporary("folder.vtp")
 os.makedirs(folder, exist_ok=True)
 fails(1, "solve", CORNELL_BOX, "-o", folder, says=["is a folder"])
 os.rmdir(folder)
+
+fails(1, "solve", CORNELL_BOX, "-o", "/proc/file.vtp", says=["/proc/file.vtp"])  # Even root may not.
+
+# A device that takes no byte stands for a full disk.
+for name in ("full.vtp", "full.ply"):
+    full = temporary(name)
+    if os.path.lexists(full):
+        os.remove(full)
+    os.symlink("/dev/full", full)
+    fails(1, "solve", CORNELL_BOX, "-o", full, "--iterations", "1", "--progress", "none", says=["could not be written"])
+    os.remove(full)
 
 # Probe points are checked, with the line, before solving.
 probes, readings = temporary("probes.csv"), temporary("readings.csv")

@@ -1,5 +1,9 @@
 """`lambert solve`: files, report and readings agree with each other."""
 import csv
+import json
+import os
+import pty
+import shutil
 import signal
 import subprocess
 
@@ -93,6 +97,37 @@ for row, face in zip(rows, largest):
     measured = np.array([float(row[band]) for band in "rgb"])
     # Barycentrics in float of a point rounded to float: 1e-3 of the brightest is far above either.
     assert np.allclose(measured, expected, rtol=1e-3, atol=1e-3 * irradiance.max()), (measured, expected)
+
+# File names may hold blanks, letters beyond ASCII, and bytes that are no text at all.
+odd = os.path.join(os.path.dirname(out), "R\u00e4ume und B\u00f6den")
+os.makedirs(odd, exist_ok=True)
+for name in ("K\u00fcche 1.vtp", os.fsdecode(b"no\xfftext.vtp")):
+    target, account = os.path.join(odd, name), os.path.join(odd, "account.json")
+    done = subprocess.run([LAMBERT, "solve", CORNELL_BOX, os.path.join(odd, "..", "box.ply"), "-o", target,
+                           "--iterations", "1", "--report", account, "--progress", "none"], capture_output=True)
+    assert done.returncode == 0 and os.path.getsize(target) > 0, done.stderr
+    with open(account, encoding="utf-8") as file:
+        assert len(json.load(file)["files"]) == 2  # Two scenes make one.
+scene = os.path.join(odd, os.fsdecode(b"no\xfftext.obj"))
+shutil.copy(CORNELL_BOX, scene)
+shutil.copy(CORNELL_BOX[:-3] + "mtl", odd)
+done = subprocess.run([LAMBERT, "info", scene, "--json"], capture_output=True)
+assert done.returncode == 0 and json.loads(done.stdout)["scene"]["emitting_faces"] > 0, done.stderr
+
+# On a terminal there is a bar, in a pipe there are lines.
+master, slave = pty.openpty()
+subprocess.run([LAMBERT, "solve", CORNELL_BOX, "-o", out, "--error", "0.2"], stderr=slave, stdout=subprocess.DEVNULL,
+               check=True)
+os.close(slave)
+shown = b""
+while True:
+    try:
+        shown += os.read(master, 65536)
+    except OSError:  # The terminal is closed and read out.
+        break
+assert b"\r" in shown and b"#" in shown and b" %" in shown, shown
+done = subprocess.run([LAMBERT, "solve", CORNELL_BOX, "-o", out, "--error", "0.2"], capture_output=True)
+assert b"\r" not in done.stderr and b"iteration 1: " in done.stderr, done.stderr
 
 # Ctrl-C keeps what is solved.
 kept = temporary("kept.vtp")
