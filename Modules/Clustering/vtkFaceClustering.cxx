@@ -86,6 +86,8 @@ int vtkFaceClustering::RequestData(vtkInformation*, vtkInformationVector** input
                                          : lambert::CutAtLevel(tree, this->Level);
     mesh->GetCellData()->AddArray(ClusterIds(tree, cut, mesh->GetNumberOfCells()));
     return 1;
+  } catch (const lambert::Cancelled&) {
+    return 1;  // An abort is no error; nothing is delivered.
   } catch (const std::exception& error) {
     vtkErrorMacro(<< error.what());
     return 0;

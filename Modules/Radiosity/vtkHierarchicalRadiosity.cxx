@@ -18,6 +18,7 @@
 #include "vtkTable.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 vtkStandardNewMacro(vtkHierarchicalRadiosity);
@@ -47,13 +48,15 @@ namespace {
 struct ClusteredScene {
   lambert::Scene scene;
   lambert::ClusterTree tree;
-  std::vector<int64_t> inputFace;  ///< per face of the scene: cell of the input
+  std::vector<int64_t> inputFace;  ///< per face of the scene: triangle of the input
+  std::vector<std::array<int32_t, 3>> inputTriangles;  ///< with the points of the input
 };
 
 ClusteredScene ClusterScene(vtkPolyData* input, vtkTable* tree,
                             const lambert::ProgressCallback& progress) {
   ClusteredScene clustered;
   clustered.scene = lambert::SceneFromPolyData(input);
+  clustered.inputTriangles = lambert::SceneAsStoredInPolyData(input).mesh.triangles;
   lambert::TriangleMesh& mesh = clustered.scene.mesh;
   clustered.inputFace.resize(mesh.triangles.size());
   std::iota(clustered.inputFace.begin(), clustered.inputFace.end(), 0);
@@ -114,25 +117,57 @@ vtkSmartPointer<vtkFloatArray> ToArray(const char* name,
 
 /// The input as it came, with light at its points: radiosity by the mean reflectance and emittance
 /// of a point's faces.
-void FillInputMesh(const lambert::TriangleMesh& mesh,
-                   const std::vector<lambert::Spectrum>& irradiance, vtkPolyData* output) {
-  std::vector<lambert::Spectrum> reflectance(irradiance.size()), emittance(irradiance.size());
-  std::vector<float> faces(irradiance.size(), 0);
+/// Light at the input's own points. The scene may have split a point where its faces fall apart
+/// into several normals: an input point gets the mean of its corners, weighted by their faces'
+/// areas.
+void FillInputMesh(const ClusteredScene& clustered, const std::vector<lambert::Spectrum>& light,
+                   vtkPolyData* output) {
+  constexpr float kLeastWeight =
+      1e-12f;  // m2, so that faces without area have a say of last resort
+  const lambert::TriangleMesh& mesh = clustered.scene.mesh;
+  const size_t points = static_cast<size_t>(output->GetNumberOfPoints());
+  std::vector<lambert::Spectrum> irradiance(points), radiosity(points);
+  std::vector<float> weights(points, 0);
   for (size_t face = 0; face < mesh.triangles.size(); ++face) {
-    for (int32_t corner : mesh.triangles[face]) {
-      const size_t point = static_cast<size_t>(corner);
-      reflectance[point] += mesh.reflectance[face];
-      emittance[point] += mesh.emittance[face];
-      ++faces[point];
+    const auto& own = clustered.inputTriangles[static_cast<size_t>(clustered.inputFace[face])];
+    const float weight = std::max(kLeastWeight, mesh.Area(static_cast<int64_t>(face)));
+    for (size_t corner = 0; corner < 3; ++corner) {
+      const lambert::Spectrum& arriving = light[static_cast<size_t>(mesh.triangles[face][corner])];
+      const size_t point = static_cast<size_t>(own[corner]);
+      irradiance[point] += arriving * weight;
+      radiosity[point] += (mesh.reflectance[face] * arriving + mesh.emittance[face]) * weight;
+      weights[point] += weight;
     }
   }
-  std::vector<lambert::Spectrum> radiosity(irradiance.size());
-  for (size_t point = 0; point < irradiance.size(); ++point) {
-    const float share = 1 / std::max(1.f, faces[point]);
-    radiosity[point] = (reflectance[point] * irradiance[point] + emittance[point]) * share;
+  for (size_t point = 0; point < points; ++point) {
+    const float share = weights[point] > 0 ? 1 / weights[point] : 0;
+    irradiance[point] = irradiance[point] * share;
+    radiosity[point] = radiosity[point] * share;
   }
   output->GetPointData()->AddArray(ToArray(vtkRadiosityArrays::Irradiance(), irradiance));
   output->GetPointData()->AddArray(ToArray(vtkRadiosityArrays::Radiosity(), radiosity));
+}
+
+void RequireOptions(const lambert::HierarchicalRadiosityOptions& options) {
+  if (!(options.error > 0 && options.error <= 1)) {
+    throw lambert::Error("The error is " + std::to_string(options.error) +
+                         "; it must lie in (0, 1].");
+  }
+}
+
+void AddSky(const double radiance[3], lambert::Scene* scene) {
+  lambert::Light sky;
+  sky.type = lambert::LightType::Sky;
+  sky.name = "sky";
+  for (int band = 0; band < 3; ++band) {
+    sky.intensity[band] = static_cast<float>(radiance[band]);
+  }
+  if (!sky.intensity.IsFinite() || std::min({radiance[0], radiance[1], radiance[2]}) < 0) {
+    throw lambert::Error("The sky's radiance is negative or not a finite number.");
+  }
+  if (!sky.intensity.IsBlack()) {
+    scene->lights.push_back(sky);
+  }
 }
 }  // namespace
 
@@ -151,7 +186,12 @@ int vtkHierarchicalRadiosity::RequestData(vtkInformation*, vtkInformationVector*
       this->UpdateProgress(fraction);
       return !this->GetAbortExecute();
     };
-    const ClusteredScene clustered = ClusterScene(input, vtkTable::GetData(inputs[1]), progress);
+    RequireOptions(*this->Options);
+    ClusteredScene clustered = ClusterScene(input, vtkTable::GetData(inputs[1]), progress);
+    AddSky(this->Sky, &clustered.scene);
+    if (!clustered.scene.HasLight()) {
+      vtkWarningMacro("The scene has no light: no face emits, no lamp is given, the sky is black.");
+    }
 
     // Solve; whoever observes gets a solution after every iteration.
     lambert::HierarchicalRadiosity solver(clustered.scene, clustered.tree, *this->Options);
@@ -166,9 +206,12 @@ int vtkHierarchicalRadiosity::RequestData(vtkInformation*, vtkInformationVector*
 
     // Deliver.
     const lambert::RadiositySolution solution = solver.Solution();
-    FillInputMesh(clustered.scene.mesh, solution.inputIrradiance, lit);
+    FillInputMesh(clustered, solution.inputIrradiance, lit);
     FillHistory(solver.Statistics(), vtkTable::GetData(outputs, 1));
     FillRefinedMesh(solution, clustered, refined);
+    return 1;
+  } catch (const lambert::Cancelled&) {
+    this->StoppedBy = "interrupt";  // Before the first iteration: there is nothing to deliver.
     return 1;
   } catch (const std::exception& error) {
     vtkErrorMacro(<< error.what());

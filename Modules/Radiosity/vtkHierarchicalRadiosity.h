@@ -9,7 +9,7 @@
  * triangles of input port 0.
  * Output port 1: the history, a row an iteration (iteration, seconds, threshold, elements, links,
  * rays, change). Output port 2: the input as it came, plus `Irradiance` and `Radiosity` at its
- * points (their brighter side).
+ * points (their brighter side, the mean where the faces about a point have several normals).
  *
  * While it runs: ProgressEvent; AbortExecute ends the run and keeps its last whole iteration. After
  * every iteration an observer of vtkCommand::UpdateDataEvent finds a displayable solution on output

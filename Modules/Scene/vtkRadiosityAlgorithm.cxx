@@ -25,4 +25,5 @@ int vtkRadiosityAlgorithm::FillOutputPortInformation(int port, vtkInformation* i
 
 void vtkRadiosityAlgorithm::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
+  os << indent << "Sky: " << this->Sky[0] << " " << this->Sky[1] << " " << this->Sky[2] << "\n";
 }

@@ -19,12 +19,20 @@ class LAMBERTSCENE_EXPORT vtkRadiosityAlgorithm : public vtkPolyDataAlgorithm {
   vtkTypeMacro(vtkRadiosityAlgorithm, vtkPolyDataAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
+  ///@{ Radiance (R, G, B) of a uniform sky in W/(m2 sr), [0, inf), added to the input's lights;
+  /// default 0: none.
+  vtkSetVector3Macro(Sky, double);
+  vtkGetVector3Macro(Sky, double);
+  ///@}
+
  protected:
   vtkRadiosityAlgorithm();
   ~vtkRadiosityAlgorithm() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* information) override;
   int FillOutputPortInformation(int port, vtkInformation* information) override;
+
+  double Sky[3] = {0, 0, 0};
 
  private:
   vtkRadiosityAlgorithm(const vtkRadiosityAlgorithm&) = delete;

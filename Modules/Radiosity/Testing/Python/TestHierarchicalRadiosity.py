@@ -1,8 +1,14 @@
 """The Python surface of the method, its three ports, and its events."""
+import os
+
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkTriangleFilter
+from vtkmodules.vtkFiltersSources import vtkCubeSource
+from vtkmodules.vtkIOGeometry import vtkSTLReader, vtkSTLWriter
+from vtkmodules.vtkRenderingCore import vtkPolyDataMapper
 
 import lambert
 
@@ -133,3 +139,78 @@ broken.AddObserver("ErrorEvent", lambda *_: errors.append(1))
 broken.SetInputData(wrong)
 broken.Update()
 assert errors and broken.GetOutput().GetNumberOfCells() == 0
+
+# From a file's points to a mapper in four lines: points that the file shares between faces of different normals stay
+# one in port 2, and a sky lights what emits nothing.
+cube = vtkCubeSource()
+corners = vtkCleanPolyData()  # Eight points, as an STL reader leaves them.
+corners.SetInputConnection(cube.GetOutputPort())
+corners.Update()
+bare = vtkPolyData()
+bare.SetPoints(corners.GetOutput().GetPoints())
+bare.SetPolys(corners.GetOutput().GetPolys())
+triangles = vtkTriangleFilter()
+triangles.SetInputData(bare)
+triangles.Update()
+solid = os.path.join(os.environ["LAMBERT_TEMPORARY_DIR"], "cube.stl")
+writer = vtkSTLWriter()
+writer.SetInputConnection(triangles.GetOutputPort())
+writer.SetFileName(solid)
+writer.Write()
+
+reader = vtkSTLReader()
+reader.SetFileName(solid)
+clusters = lambert.vtkFaceClustering()
+clusters.SetInputConnection(reader.GetOutputPort())
+radiosity = lambert.vtkHierarchicalRadiosity()
+radiosity.SetSky(1, 2, 3)
+radiosity.SetInputConnection(reader.GetOutputPort())
+mapper = vtkPolyDataMapper()
+mapper.SetInputConnection(radiosity.GetOutputPort())
+mapper.Update()
+lit = radiosity.GetOutputDataObject(2)
+stored = reader.GetOutput()
+assert stored.GetNumberOfPoints() == lit.GetNumberOfPoints() == 8
+assert np.array_equal(vtk_to_numpy(lit.GetPoints().GetData()), vtk_to_numpy(stored.GetPoints().GetData()))
+# A convex body under a constant sky L receives pi L on every facet. The sky is sampled by rays that none blocks: 2 %
+# leaves room for their scatter.
+for name, factor in (("Irradiance", np.pi), ("Radiosity", np.pi / 2)):
+    values = array(lit, name)
+    assert values.shape == (8, 3) and np.allclose(values, factor * np.array([1, 2, 3]), rtol=0.02), (name, values)
+assert np.allclose(array(mapper.GetInput(), "Irradiance"), np.pi * np.array([1, 2, 3]), rtol=0.02)
+assert radiosity.GetSky() == (1.0, 2.0, 3.0)
+
+# The same through a tree from outside.
+outside = lambert.vtkHierarchicalRadiosity()
+outside.SetSky(1, 2, 3)
+outside.SetInputConnection(0, clusters.GetOutputPort(0))
+outside.SetInputConnection(1, clusters.GetOutputPort(1))
+outside.Update()
+assert np.allclose(array(outside.GetOutputDataObject(2), "Irradiance"), np.pi * np.array([1, 2, 3]), rtol=0.02)
+
+# Options without meaning are errors, not endless runs.
+for option, value in (("Error", -1), ("Error", 0), ("Error", 2), ("Sky", (-1, 0, 0))):
+    broken = lambert.vtkHierarchicalRadiosity()
+    getattr(broken, "Set" + option)(value)
+    errors = []
+    broken.AddObserver("ErrorEvent", lambda *_: errors.append(1))
+    broken.SetInputConnection(reader.GetOutputPort())
+    broken.Update()
+    assert errors and broken.GetOutput().GetNumberOfCells() == 0, (option, value)
+
+# No light is a warning, and darkness.
+dark = lambert.vtkHierarchicalRadiosity()
+warnings = []
+dark.AddObserver("WarningEvent", lambda *_: warnings.append(1))
+dark.SetInputConnection(reader.GetOutputPort())
+dark.Update()
+assert warnings and array(dark.GetOutputDataObject(2), "Irradiance").max() == 0
+
+# An abort before the first iteration delivers nothing and is no error.
+early, errors = lambert.vtkHierarchicalRadiosity(), []
+early.SetSky(1, 1, 1)
+early.AddObserver("ErrorEvent", lambda *_: errors.append(1))
+early.AddObserver("ProgressEvent", lambda caller, _: caller.AbortExecuteOn())
+early.SetInputConnection(reader.GetOutputPort())
+early.Update()
+assert early.GetStoppedBy() == "interrupt" and not errors
