@@ -54,6 +54,9 @@ struct Element {
   bool IsLeaf() const { return child < 0; }
   bool IsPolygon() const { return polygonCount > 0; }
   bool IsVolume() const { return kind == ElementKind::Volume; }
+  /// Normals over more than a hemisphere: light from opposite sides must not cancel in one vector
+  /// here.
+  bool TurnsToAllSides() const { return IsVolume() || coneAngle > float(kPi) / 2; }
 };
 
 /// Projected area over area of what an element turns toward the unit vector `direction`: by the
@@ -63,7 +66,7 @@ inline float FacingFraction(const Element& element, const Vec3f& direction) {
   if (element.IsVolume()) return 0.25f;
   if (!(element.area > 0)) return 0;
   float projected = std::max(0.f, Dot(element.vectorArea, direction));
-  if (element.coneAngle > float(kPi) / 2) {
+  if (element.TurnsToAllSides()) {
     projected += 0.25f * std::max(0.f, element.area - Length(element.vectorArea));
   }
   return projected / element.area;
@@ -73,7 +76,9 @@ inline float FacingFraction(const Element& element, const Vec3f& direction) {
 /// from all around alike.
 struct VectorIrradiance {
   std::array<Vec3f, 3> vector;  ///< per band, W/m2
-  Spectrum isotropic;           ///< irradiance of any normal, W/m2
+  /// What any normal receives, W/m2; at elements that turn to all sides the sum of the lengths of
+  /// all vectors instead, of which what the vector sum does not show came from all around alike.
+  Spectrum isotropic;
 
   void Add(const Vec3f& transfer, const Spectrum& radiosity) {
     for (size_t band = 0; band < 3; ++band) vector[band] += transfer * radiosity[int(band)];
@@ -88,6 +93,15 @@ struct VectorIrradiance {
     for (Vec3f& v : scaled.vector) v *= s;
     scaled.isotropic *= s;
     return scaled;
+  }
+  /// The same with the isotropic part of a facet, from one with the sum of lengths: over all
+  /// normals the mean of the positive cosine is a quarter.
+  VectorIrradiance FromAllAround() const {
+    VectorIrradiance light = *this;
+    for (int band = 0; band < 3; ++band) {
+      light.isotropic[band] = 0.25f * std::max(0.f, isotropic[band] - Length(vector[size_t(band)]));
+    }
+    return light;
   }
   /// Irradiance of a facet with unit normal `n` (4.12), never negative.
   Spectrum At(const Vec3f& n) const {

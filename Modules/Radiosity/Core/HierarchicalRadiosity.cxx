@@ -27,7 +27,7 @@ constexpr double kSweepTolerance = 1e-3, kLastSweepTolerance = 1e-5;
 constexpr int kMaximumSweeps = 500;
 /// Half-hidden leaves are split while they receive more than this many thresholds.
 constexpr double kExposureThreshold = 0.1;
-constexpr float kLooseRowSum = 1.25f;
+constexpr float kLooseRowSum = 1.25f, kTightRowSum = 0.7f;
 /// Light grows where the change has not fallen after this many sweeps.
 constexpr int kGrowthSweeps = 10;
 
@@ -168,7 +168,7 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
 // ones do not.
 double HierarchicalRadiosity::Implementation::Exchange(double tolerance) {
   double change = 1;
-  for (const float bound : {kLooseRowSum, 1.f}) {
+  for (const float bound : {kLooseRowSum, 1.f, kTightRowSum}) {
     BoundRowSums(hierarchy, network, bound, &light);
     double changeBefore = std::numeric_limits<double>::max();
     for (int sweep = 0; sweep < kMaximumSweeps; ++sweep) {

@@ -16,7 +16,7 @@ VectorIrradiance Gather(const Element& receiver, const std::vector<Link>& links,
   for (const Link& link : links) {
     const Spectrum& radiosity = light.radiosity[size_t(link.source)];
     sum.Add(link.transfer, radiosity);  // (4.20)
-    if (receiver.IsVolume()) sum.isotropic += radiosity * Length(link.transfer);
+    if (receiver.TurnsToAllSides()) sum.isotropic += radiosity * Length(link.transfer);
   }
   return sum;
 }
@@ -53,11 +53,12 @@ struct Change {
 }  // namespace
 
 Spectrum ElementIrradiance(const Element& element, const VectorIrradiance& irradiance) {
-  Spectrum e;
+  const VectorIrradiance light =
+      element.TurnsToAllSides() ? irradiance.FromAllAround() : irradiance;
+  Spectrum e = light.isotropic;
   for (int band = 0; band < 3; ++band) {
-    const Vec3f& vector = irradiance.vector[size_t(band)];
+    const Vec3f& vector = light.vector[size_t(band)];
     const float length = Length(vector);
-    e[band] = irradiance.isotropic[band];
     if (length > 0) e[band] += FacingFraction(element, vector / length) * length;
   }
   return e;
@@ -74,15 +75,8 @@ double ReceivedPower(const ElementHierarchy& hierarchy, const ElementLight& ligh
 
 VectorIrradiance PushIrradiance(const Element& parent, const VectorIrradiance& irradiance,
                                 const Element& child) {
-  VectorIrradiance pushed = irradiance;
-  // Leaving the volumes: what did not come from one side came from all around.
-  if (parent.IsVolume() && !child.IsVolume()) {
-    for (int band = 0; band < 3; ++band) {
-      pushed.isotropic[band] = 0.25f * std::max(0.f, irradiance.isotropic[band] -
-                                                         Length(irradiance.vector[size_t(band)]));
-    }
-  }
-  if (child.IsVolume() || child.coneAngle > float(kPi) / 2) return pushed;
+  if (child.TurnsToAllSides()) return irradiance;
+  VectorIrradiance pushed = parent.TurnsToAllSides() ? irradiance.FromAllAround() : irradiance;
   for (Vec3f& vector : pushed.vector) {
     if (Dot(vector, child.vectorArea) <= 0) vector = Vec3f();  // (4.14)
   }
@@ -104,7 +98,7 @@ void BoundRowSums(const ElementHierarchy& hierarchy, const LinkNetwork& network,
       for (const Link& link : network.incoming[size_t(index)]) {
         if (hierarchy[link.source].kind == ElementKind::Light) continue;
         sum.vector[0] += link.transfer;
-        if (element.IsVolume()) sum.isotropic.r += Length(link.transfer);
+        if (element.TurnsToAllSides()) sum.isotropic.r += Length(link.transfer);
       }
       if (element.parent >= 0) {
         sum += PushIrradiance(hierarchy[element.parent], unit[size_t(element.parent)], element);

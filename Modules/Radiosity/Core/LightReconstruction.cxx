@@ -10,16 +10,14 @@ namespace lambert {
 
 namespace {
 
-/// Points are evaluated this far toward the middle of their element, so that corners do not see through
-/// walls.
+/// Points are evaluated this far toward the middle of their element, so that corners do not see
+/// through walls.
 constexpr float kInset = 1e-3f;
-/// Links that give less than this part of a receiver's light keep their stored visibility: no ray is
-/// worth it.
+/// Links that give less than this part of a receiver's light keep their stored visibility: no ray
+/// is worth it.
 constexpr float kNegligiblePart = 2e-2f;
 /// Links that give less than this part are not evaluated anew within their triangle.
 constexpr float kFaintPart = 2e-3f;
-
-bool IsWide(const Element& element) { return element.coneAngle > float(kPi) / 2; }
 
 }  // namespace
 
@@ -46,8 +44,9 @@ LightReconstruction::LightReconstruction(const ElementHierarchy& hierarchy,
       for (int k = 0; k < 4; ++k) {
         const Vec3f x = cluster.frame.Corner(k);
         VectorIrradiance sum =
-            parent.IsVolume() ? FromVolumes(index, x) : Interpolate(cluster.parent, x);
-        AddLinks(index, cluster, x, false, &sum, nullptr, nullptr);
+            parent.IsVolume() ? FromVolumes(index, x)
+                              : PushIrradiance(parent, Interpolate(cluster.parent, x), cluster);
+        AddLinks(index, cluster, x, false, &sum, nullptr);
         corners_[size_t(cornerIndex_[size_t(index)])][size_t(k)] = sum;
       }
     });
@@ -69,7 +68,9 @@ VectorIrradiance LightReconstruction::At(const Vec3f& x, const std::vector<Share
     const float weight = share.weight * light_.rowScale[size_t(share.leaf)];
     const Vec3f place = x + (share.inside - x) * kInset;
     if (IsCluster(share.leaf)) {
-      sum += Interpolate(share.leaf, place) * weight;
+      const VectorIrradiance leafLight = Interpolate(share.leaf, place);
+      sum += (hierarchy_[share.leaf].TurnsToAllSides() ? leafLight.FromAllAround() : leafLight) *
+             weight;
       continue;
     }
     int32_t index = share.leaf;
@@ -87,7 +88,7 @@ VectorIrradiance LightReconstruction::At(const Vec3f& x, const std::vector<Share
     if (!(holder.weight > 0)) continue;
     const Vec3f place = x + (holder.inside / holder.weight - x) * kInset;
     VectorIrradiance own;
-    AddLinks(holder.leaf, hierarchy_[holder.leaf], place, true, &own, nullptr, rays);
+    AddLinks(holder.leaf, hierarchy_[holder.leaf], place, true, &own, rays);
     sum += own * holder.weight;
   }
   return sum;
@@ -97,11 +98,7 @@ VectorIrradiance LightReconstruction::At(const Vec3f& x, const std::vector<Share
 VectorIrradiance LightReconstruction::FromAbove(int32_t polygon, const Vec3f& x) const {
   const Element& receiver = hierarchy_[polygon];
   if (hierarchy_[receiver.parent].IsVolume()) return FromVolumes(polygon, x);
-  VectorIrradiance above = Interpolate(receiver.parent, x);
-  for (Vec3f& vector : above.vector) {
-    if (Dot(vector, receiver.axis) <= 0) vector = Vec3f();
-  }
-  return above;
+  return PushIrradiance(hierarchy_[receiver.parent], Interpolate(receiver.parent, x), receiver);
 }
 
 // Bilinear between the corners of the cluster's rectangle.
@@ -123,9 +120,8 @@ VectorIrradiance LightReconstruction::Interpolate(int32_t cluster, const Vec3f& 
 }
 
 void LightReconstruction::AddLinks(int32_t holder, const Element& receiver, const Vec3f& x,
-                                   bool castRays, VectorIrradiance* sum, Spectrum* fluence,
-                                   int64_t* rays) const {
-  const Vec3f horizon = IsWide(receiver) ? Vec3f() : receiver.axis;
+                                   bool castRays, VectorIrradiance* sum, int64_t* rays) const {
+  const Vec3f horizon = receiver.TurnsToAllSides() ? Vec3f() : receiver.axis;
   const float received =
       ElementIrradiance(hierarchy_[holder], light_.irradiance[size_t(holder)]).MaxBand();
   for (const Link& link : network_.incoming[size_t(holder)]) {
@@ -140,9 +136,11 @@ void LightReconstruction::AddLinks(int32_t holder, const Element& receiver, cons
     if (isSky) {
       float visible = 0;
       int64_t cast = 0;
-      sum->Add(castRays && isPartial ? SkyTransfer(rayScene_, x, horizon, &visible, &cast)
-                                     : link.transfer,
-               radiosity);
+      const Vec3f transfer = castRays && isPartial
+                                 ? SkyTransfer(rayScene_, x, horizon, &visible, &cast)
+                                 : link.transfer;
+      sum->Add(transfer, radiosity);
+      if (receiver.TurnsToAllSides()) sum->isotropic += radiosity * Length(transfer);
       if (rays) *rays += cast;
       continue;
     }
@@ -159,7 +157,7 @@ void LightReconstruction::AddLinks(int32_t holder, const Element& receiver, cons
       visible = VisibleFraction(hierarchy_, rayScene_, source, x, horizon, rays);
     }
     sum->Add(kernel * visible, radiosity);
-    if (fluence) *fluence += radiosity * (Length(kernel) * visible);
+    if (receiver.TurnsToAllSides()) sum->isotropic += radiosity * (Length(kernel) * visible);
   }
 }
 
@@ -167,14 +165,8 @@ void LightReconstruction::AddLinks(int32_t holder, const Element& receiver, cons
 VectorIrradiance LightReconstruction::FromVolumes(int32_t surfaceSide, const Vec3f& x) const {
   const Element& receiver = hierarchy_[surfaceSide];
   VectorIrradiance sum;
-  Spectrum fluence;
   for (int32_t volume = receiver.parent; volume >= 0; volume = hierarchy_[volume].parent) {
-    AddLinks(volume, receiver, x, false, &sum, &fluence, nullptr);
-  }
-  if (IsWide(receiver)) {
-    for (int band = 0; band < 3; ++band) {
-      sum.isotropic[band] = 0.25f * std::max(0.f, fluence[band] - Length(sum.vector[size_t(band)]));
-    }
+    AddLinks(volume, receiver, x, false, &sum, nullptr);
   }
   return sum;
 }

@@ -36,7 +36,7 @@ class LightReconstruction {
   VectorIrradiance FromAbove(int32_t polygon, const Vec3f& x) const;
   VectorIrradiance Interpolate(int32_t cluster, const Vec3f& x) const;
   void AddLinks(int32_t holder, const Element& receiver, const Vec3f& x, bool castRays,
-                VectorIrradiance* sum, Spectrum* fluence, int64_t* rays) const;
+                VectorIrradiance* sum, int64_t* rays) const;
   VectorIrradiance FromVolumes(int32_t surfaceSide, const Vec3f& x) const;
 
   const ElementHierarchy& hierarchy_;
