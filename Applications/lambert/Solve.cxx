@@ -32,7 +32,7 @@ void CheckOutputs(const SolveArguments& arguments) {
 
 void WriteImage(const SolveArguments& arguments, const RadiosityRun& run) {
   vtkNew<vtkPolyData> data;
-  PolyDataFromSolution(run.Solution(), data);
+  PolyDataFromSolution(run.Solution(), run.GetScene(), data);
   vtkNew<vtkRadiosityImageWriter> writer;
   const auto size = arguments.ImageSize();
   writer->SetInputData(data);
@@ -136,7 +136,8 @@ int Solve(const SolveArguments& arguments) {
 
   // Outputs.
   Stage("write", &display, &run, [&] {
-    WriteSolution(run.Solution(), arguments.output, arguments.exposure, arguments.bothSides);
+    WriteSolution(run.Solution(), run.GetScene(), arguments.output, arguments.exposure,
+                  arguments.bothSides);
   });
   if (!arguments.probe.empty()) {
     Stage("probe", &display, &run, [&] { ReadProbes(arguments, run, probes); });

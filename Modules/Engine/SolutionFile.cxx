@@ -33,9 +33,9 @@ bool EndsWith(const std::string& fileName, const std::string& end) {
   return file.read(tail.data(), static_cast<std::streamsize>(tail.size())) && tail == end;
 }
 
-void WriteVtp(const RadiositySolution& solution, const std::string& fileName) {
+void WriteVtp(const RadiositySolution& solution, const Scene& scene, const std::string& fileName) {
   vtkNew<vtkPolyData> data;
-  PolyDataFromSolution(solution, data);
+  PolyDataFromSolution(solution, scene, data);
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(data);
   writer->SetFileName(fileName.c_str());
@@ -177,10 +177,10 @@ std::vector<int64_t> BrighterSides(const RadiositySolution& solution) {
   return kept;
 }
 
-void WriteSolution(const RadiositySolution& solution, const std::string& fileName, double exposure,
-                   bool bothSides) {
+void WriteSolution(const RadiositySolution& solution, const Scene& scene,
+                   const std::string& fileName, double exposure, bool bothSides) {
   if (Extension(fileName) == ".vtp") {
-    WriteVtp(solution, fileName);
+    WriteVtp(solution, scene, fileName);
     return;
   }
   std::vector<int64_t> triangles(solution.mesh.triangles.size());

@@ -3,6 +3,7 @@
 #define SolutionFile_h
 
 #include "Scene/Core/RadiositySolution.h"
+#include "Scene/Core/Scene.h"
 #include "lambertEngineModule.h"
 
 #include <string>
@@ -11,11 +12,11 @@ namespace lambert {
 /// True for the names that WriteSolution can write: ending in .vtp or .ply, in any case.
 LAMBERTENGINE_EXPORT bool IsSolutionFileName(const std::string& fileName);
 
-/// Writes by the ending. `.vtp`: the refined mesh with all its arrays. `.ply`: binary, per vertex x
-/// y z, nx ny nz, red green blue (tone mapped, sRGB), irradiance_r irradiance_g irradiance_b
-/// (W/m2). Viewers of PLY do not cull, so of a face with two lit sides the brighter stays, unless
-/// `bothSides`. Throws Error where the file cannot be written.
-LAMBERTENGINE_EXPORT void WriteSolution(const RadiositySolution& solution,
+/// Writes by the ending. `.vtp`: the refined mesh with all its arrays and the tables of `scene`.
+/// `.ply`: binary, per vertex x y z, nx ny nz, red green blue (tone mapped, sRGB), irradiance_r
+/// irradiance_g irradiance_b (W/m2). Viewers of PLY do not cull, so of a face with two lit sides
+/// the brighter stays, unless `bothSides`. Throws Error where the file cannot be written.
+LAMBERTENGINE_EXPORT void WriteSolution(const RadiositySolution& solution, const Scene& scene,
                                         const std::string& fileName, double exposure = 0,
                                         bool bothSides = false);
 

@@ -81,7 +81,7 @@ void FillRefinedMesh(lambert::RadiositySolution solution, const ClusteredScene& 
   for (int64_t& face : solution.inputFaceId) {
     face = clustered.inputFace[static_cast<size_t>(face)];
   }
-  lambert::PolyDataFromSolution(solution, output);
+  lambert::PolyDataFromSolution(solution, clustered.scene, output);
 }
 
 void FillHistory(const lambert::SolverStatistics& statistics, vtkTable* output) {

@@ -6,7 +6,7 @@
  * defaults for the others. Input port 1, optional: the cluster tree of vtkFaceClustering, whose
  * port 0 is then the mesh it belongs to; without it the filter clusters by itself. Output port 0:
  * the refined mesh with `Irradiance` and `Radiosity` (W/m2) at its points; `InputFaceId` counts the
- * triangles of input port 0.
+ * triangles of input port 0. The tables of the input (materials, parts, lights) come along.
  * Output port 1: the history, a row an iteration (iteration, seconds, threshold, elements, links,
  * rays, change). Output port 2: the input as it came, plus `Irradiance` and `Radiosity` at its
  * points (their brighter side, the mean where the faces about a point have several normals).
@@ -39,7 +39,7 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   double GetError();
   ///@}
   ///@{ Seconds of solving after which the run ends at the next iteration border; default 0: no
-  ///limit.
+  /// limit.
   void SetTimeLimit(double seconds);
   double GetTimeLimit();
   ///@}

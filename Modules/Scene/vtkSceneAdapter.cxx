@@ -107,7 +107,8 @@ void PolyDataFromScene(const Scene& scene, vtkPolyData* output) {
   WriteSceneTables(scene, output->GetFieldData());
 }
 
-void PolyDataFromSolution(const RadiositySolution& solution, vtkPolyData* output) {
+void PolyDataFromSolution(const RadiositySolution& solution, const Scene& scene,
+                          vtkPolyData* output) {
   PolyDataFromTriangleMesh(solution.mesh, output);
   vtkCellData* cells = output->GetCellData();
   AddScalars<vtkIdTypeArray>(cells, Names::InputFaceId(), solution.inputFaceId);
@@ -117,5 +118,6 @@ void PolyDataFromSolution(const RadiositySolution& solution, vtkPolyData* output
   }
   AddSpectra(output->GetPointData(), Names::Irradiance(), solution.irradiance);
   AddSpectra(output->GetPointData(), Names::Radiosity(), solution.radiosity);
+  WriteSceneTables(scene, output->GetFieldData());
 }
 }  // namespace lambert

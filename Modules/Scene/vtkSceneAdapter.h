@@ -26,8 +26,8 @@ LAMBERTSCENE_EXPORT Scene SceneAsStoredInPolyData(vtkPolyData* input);
 LAMBERTSCENE_EXPORT void PolyDataFromScene(const Scene& scene, vtkPolyData* output);
 
 /// Fills `output` with the refined mesh and its light; InputFaceId, Side (and LeafId) at its cells,
-/// Irradiance and Radiosity at its points.
-LAMBERTSCENE_EXPORT void PolyDataFromSolution(const RadiositySolution& solution,
+/// Irradiance and Radiosity at its points, and the tables of `scene`, whose rows its cells name.
+LAMBERTSCENE_EXPORT void PolyDataFromSolution(const RadiositySolution& solution, const Scene& scene,
                                               vtkPolyData* output);
 }  // namespace lambert
 

@@ -50,6 +50,8 @@ assert irradiance.min() >= 0 and irradiance.max() > 0
 for name in ("Reflectance", "Emittance", "InputFaceId", "Side", "MaterialId", "PartId", "SourceCellId"):
     assert cells.HasArray(name), name
 assert mesh.GetPointData().GetNormals() is not None
+for name in ("Material.Name", "Part.Name", "Part.Source"):  # The rows that the cells name.
+    assert mesh.GetFieldData().GetAbstractArray(name).GetNumberOfValues() > 0, name
 
 # The same iterations give the same bits, whatever the threads.
 for threads in (1, 3):
