@@ -5,11 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 
 namespace lambert {
 namespace {
+/// What spreadsheets put before UTF-8.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 /// Fields between commas, without the blanks around them.
 std::vector<std::string> Fields(const std::string& line) {
   std::vector<std::string> fields;
@@ -45,13 +50,16 @@ ProbePoint ParsePoint(const std::vector<std::string>& fields, const std::string&
 
 std::vector<ProbePoint> ReadProbeFile(const std::string& fileName) {
   std::ifstream file(fileName);
-  if (!file) {
+  if (!file || std::filesystem::is_directory(fileName)) {
     throw Error("The probe file " + fileName + " cannot be read.");
   }
 
   // The header says what the columns are.
   std::string line;
   std::getline(file, line);
+  if (line.rfind(kByteOrderMark, 0) == 0) {
+    line.erase(0, kByteOrderMark.size());
+  }
   const std::vector<std::string> header{"x", "y", "z", "nx", "ny", "nz"};
   if (Fields(line) != header) {
     throw Error("The probe file " + fileName + " does not begin with the header x,y,z,nx,ny,nz.");

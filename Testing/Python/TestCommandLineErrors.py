@@ -74,6 +74,9 @@ for text, says in (("a,b\n", ["header"]),
         file.write(text)
     fails(1, "solve", CORNELL_BOX, "-o", out, "--probe", probes, "--probe-output", readings, says=says)
 
+fails(1, "solve", CORNELL_BOX, "-o", out, "--probe", bad, "--probe-output", readings, says=["cannot be read"])
+fails(1, "solve", CORNELL_BOX, "-o", out, "--probe", probes + ".no", "--probe-output", readings, says=["cannot be read"])
+
 # A picture without a display: a sentence, no abort.
 without = {key: value for key, value in os.environ.items() if key != "DISPLAY"}
 fails(1, "solve", CORNELL_BOX, "-o", out, "--image", temporary("never.png"), says=["xvfb-run"], environment=without)

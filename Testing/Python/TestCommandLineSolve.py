@@ -100,6 +100,14 @@ for row, face in zip(rows, largest):
     # Barycentrics in float of a point rounded to float: 1e-3 of the brightest is far above either.
     assert np.allclose(measured, expected, rtol=1e-3, atol=1e-3 * irradiance.max()), (measured, expected)
 
+# A spreadsheet's CSV: a byte order mark and its ends of lines. High in mid-air facing up, outside, and facing nothing.
+with open(probes, "wb") as file:
+    file.write(b"\xef\xbb\xbfx,y,z,nx,ny,nz\r\n0.278,0.3,0.279,0,9,0\r\n9,9,9,0,1,0\r\n")
+solve(CORNELL_BOX, "-o", out, "--error", "0.3", "--probe", probes, "--probe-output", readings)
+with open(readings) as file:
+    rows = list(csv.DictReader(file))
+assert [row["kind"] for row in rows] == ["space", "space"] and float(rows[0]["r"]) > 0 == float(rows[1]["r"]), rows
+
 # File names may hold blanks, letters beyond ASCII, and bytes that are no text at all.
 odd = os.path.join(os.path.dirname(out), "R\u00e4ume und B\u00f6den")
 os.makedirs(odd, exist_ok=True)

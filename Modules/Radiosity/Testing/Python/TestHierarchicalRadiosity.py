@@ -60,6 +60,9 @@ for name, default, other in (("Error", 0.05, 0.2), ("TimeLimit", 0.0, 60.0), ("I
     assert getattr(method, "Get" + name)() == default, name
     getattr(method, "Set" + name)(other)
     assert getattr(method, "Get" + name)() == other, name
+assert method.GetSky() == (0, 0, 0)
+method.SetSky(1, 2, 3)
+assert method.GetSky() == (1, 2, 3)
 assert method.GetStoppedBy() == ""
 assert method.GetNumberOfInputPorts() == 2 and method.GetNumberOfOutputPorts() == 3
 

@@ -1,0 +1,35 @@
+"""The Python surface of the picture writer, and what it refuses."""
+import os
+
+import lambert
+
+writer = lambert.vtkRadiosityImageWriter()
+for name, default, other in (("FileName", None, "picture.png"), ("Size", (960, 720), (64, 48)), ("ViewAngle", 40.0, 60.0),
+                             ("AutomaticCamera", True, False), ("Exposure", 0.0, -1.5)):
+    assert getattr(writer, "Get" + name)() == default, name
+    getattr(writer, "Set" + name)(other)
+    assert getattr(writer, "Get" + name)() == other, name
+
+# A camera of one's own ends the automatic one.
+writer.AutomaticCameraOn()
+writer.SetCamera(1, 2, 3, 4, 5, 6)
+assert not writer.GetAutomaticCamera() and writer.GetPosition() == (1, 2, 3) and writer.GetFocalPoint() == (4, 5, 6)
+writer.AutomaticCameraOn()
+writer.SetViewUp(0, 0, 1)
+assert not writer.GetAutomaticCamera() and writer.GetViewUp() == (0, 0, 1)
+writer.SetViewAngle(500)
+assert 0 < writer.GetViewAngle() < 180
+assert lambert.vtkRadiosityImageWriter.IsDisplayAvailable() in (True, False)
+
+# A scene without light values, and a size of nothing, are errors that write nothing.
+path = os.path.join(os.environ["LAMBERT_TEMPORARY_DIR"], "never.png")
+reader = lambert.vtkRadiositySceneReader()
+reader.SetFileName(os.path.join(os.environ["LAMBERT_DATA_DIR"], "CornellBox", "CornellBox.obj"))
+for size in ((64, 48), (0, 48)):
+    writer, errors = lambert.vtkRadiosityImageWriter(), []
+    writer.AddObserver("ErrorEvent", lambda *_: errors.append(1))
+    writer.SetInputConnection(reader.GetOutputPort())
+    writer.SetFileName(path)
+    writer.SetSize(*size)
+    writer.Write()
+    assert errors and writer.GetErrorCode() != 0 and not os.path.exists(path)
