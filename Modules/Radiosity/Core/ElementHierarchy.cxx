@@ -12,7 +12,7 @@ namespace lambert {
 namespace {
 
 /// Elements are not split below this part of their surface's diagonal, nor of the scene's.
-constexpr float kFloorOfSurface = 1e-3f;
+constexpr float kFloorOfSurface = 1e-3f, kFloorOfSlivers = 5e-5f;
 constexpr float kFloorOfScene = 1e-6f;
 
 bool ReflectsNothing(const TriangleMesh& mesh, const ClusterNode& node) {
@@ -311,8 +311,10 @@ int ElementHierarchy::PolygonCorners(const Element& element, Vec3f* corners) con
 
 bool ElementHierarchy::BelowFloor(const Element& element) const {
   const Box3f& surface = tree_.nodes[size_t(tree_.surfaceRoots[size_t(element.surface)])].bounds;
-  return element.radius <
-             std::max(kFloorOfSurface * surface.Diagonal(), kFloorOfScene * diagonal_) ||
+  // A sliver is cut across until its pieces have a shape of their own.
+  const Vec3f& half = element.frame.halfExtent;
+  const float ofSurface = half.x > 2 * half.y ? kFloorOfSlivers : kFloorOfSurface;
+  return element.radius < std::max(ofSurface * surface.Diagonal(), kFloorOfScene * diagonal_) ||
          element.polygonCount + 2 > kMaximumPolygonCorners;
 }
 

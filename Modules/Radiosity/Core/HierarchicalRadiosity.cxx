@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "Common/Core/Error.h"
 #include "Common/Core/Timer.h"
 #include "Radiosity/Core/EnergyBalance.h"
 #include "Radiosity/Core/ExposureSplitting.h"
@@ -27,7 +28,6 @@ constexpr double kSweepTolerance = 1e-3, kLastSweepTolerance = 1e-5;
 constexpr int kMaximumSweeps = 500;
 /// Half-hidden leaves are split while they receive more than this many thresholds.
 constexpr double kExposureThreshold = 0.1;
-constexpr float kLooseRowSum = 1.25f, kTightRowSum = 0.7f;
 /// Light grows where the change has not fallen after this many sweeps.
 constexpr int kGrowthSweeps = 10;
 
@@ -75,6 +75,10 @@ struct HierarchicalRadiosity::Implementation {
         litSides(FindLitSides(scene_, tree, rayScene, &statistics.rays)),
         hierarchy(scene_, tree, litSides, options_.leafMesh),
         received(SourcePower(scene_)) {
+    if (!(options.error > 0 && options.error <= 1)) {
+      throw Error("The wanted error is " + std::to_string(options.error) +
+                  "; give a fraction above 0 and at most 1.");
+    }
     light.Grow(hierarchy);
     MakeInitialLinks(hierarchy, &network);
     network.rays = statistics.rays;
@@ -164,11 +168,11 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
   MeasureEnergyBalance(self.hierarchy, self.network, self.light, self.rayScene, &statistics);
 }
 
-// Bounces until they settle. Loose row sums scatter without bias; where they let light grow, strict
-// ones do not.
+// Bounces until they settle. Sampled row sums scatter about 1 without bias; where a loose bound on
+// them lets light grow, tighter ones do not.
 double HierarchicalRadiosity::Implementation::Exchange(double tolerance) {
   double change = 1;
-  for (const float bound : {kLooseRowSum, 1.f, kTightRowSum}) {
+  for (const float bound : {1.25f, 1.1f, 1.f, 0.7f}) {
     BoundRowSums(hierarchy, network, bound, &light);
     double changeBefore = std::numeric_limits<double>::max();
     for (int sweep = 0; sweep < kMaximumSweeps; ++sweep) {

@@ -26,6 +26,7 @@ struct HierarchicalRadiosityOptions {
 class HierarchicalRadiosity {
  public:
   /// `scene` is in the order that ClusterFaces left it in; both are kept by reference.
+  /// Throws Error for an error request outside (0, 1].
   HierarchicalRadiosity(const Scene& scene, const ClusterTree& tree,
                         const HierarchicalRadiosityOptions& options = {});
   ~HierarchicalRadiosity();

@@ -13,6 +13,8 @@ namespace {
 constexpr float kDoubtClear = 0.02f, kDoubtClearNear = 0.1f;
 constexpr float kDoubtBlocked = 0.1f, kDoubtBlockedNear = 0.5f;
 constexpr float kDoubtPartial = 0.35f;
+/// A sky is nearly always seen in part, by many rays, and what is seen of it changes smoothly.
+constexpr float kDoubtSky = 0.05f;
 /// Links with such an end are no more than guesses of the order of the transfer itself.
 constexpr float kVolumeSpread = 1.f;
 /// Elements flatter than this cone (radians) are treated as planes when sides are told apart.
@@ -74,6 +76,7 @@ PairBound BoundPair(const ElementHierarchy& hierarchy, const Element& source,
     }
     const float nearest = std::max(distance - receiver.radius, 0.1f * receiver.radius);
     const float ratio = receiver.radius / std::max(nearest, 1e-20f);
+    bound.isSky = light.type == LightType::Sky;
     bound.formFactor = light.type == LightType::Sky ? float(kPi)
                        : light.type == LightType::Directional
                            ? 1.f
