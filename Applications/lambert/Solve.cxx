@@ -89,7 +89,7 @@ void PrintSummary(const SolveArguments& arguments, const RadiosityRun& run) {
   std::printf("stopped by %s after %zu iterations: %lld elements, %lld links, %lld rays\n",
               s.stoppedBy.c_str(), s.history.size(), static_cast<long long>(s.Elements()),
               static_cast<long long>(s.Links()), static_cast<long long>(s.rays));
-  if (run.Error()) {
+  if (run.Error() && run.Error()->points > 0) {
     const SolutionError& e = *run.Error();
     std::printf("measured error: rms %.4f [%.4f, %.4f], bounded %.4f, bias %+.4f at %lld points\n",
                 e.rms, e.rmsLow, e.rmsHigh, e.bounded, e.bias, static_cast<long long>(e.points));

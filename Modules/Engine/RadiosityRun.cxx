@@ -11,7 +11,7 @@ namespace {
 /// Seconds to write an output triangle, an upper figure: some 250 bytes, compressed.
 constexpr double kWriteSecondsPerTriangle = 2e-6;
 /// Links, and with them the time of an iteration, grow by about this factor; at most by the other.
-constexpr double kUsualGrowth = 3, kLargestGrowth = 8;
+constexpr double kUsualGrowth = 3, kLargestGrowth = 4;
 /// The reserve for the output over what is predicted: other work of the machine, uneven rays.
 constexpr double kReserveFactor = 1.3;
 /// Share of the time limit that a reconstruction may be predicted to take to be made for measuring.
@@ -168,7 +168,10 @@ std::vector<std::string> RadiosityRun::Warnings() const {
                        std::to_string(this->scene_.mesh.Bounds().Diagonal()) +
                        " m across and has lamps of given intensity; --unit may be wanted.");
   }
-  if (this->error_ && this->error_->rmsHigh - this->error_->rmsLow > 0.3 * this->error_->rms) {
+  if (this->error_ && this->error_->points == 0) {
+    warnings.push_back("No error was measured: no face receives light that does not emit itself.");
+  } else if (this->error_ &&
+             this->error_->rmsHigh - this->error_->rmsLow > 0.3 * this->error_->rms) {
     warnings.push_back(
         "The interval of the measured error is wider than 30 % of it; the bounded error counts.");
   }

@@ -164,7 +164,7 @@ std::string RunReportJson(const RadiosityRun& run, const std::string& version) {
   report["output"] = {{"triangles", run.Solution().mesh.FaceCount()},
                       {"points", run.Solution().mesh.PointCount()}};
   if (run.Error()) {
-    report["error"] = ErrorJson(*run.Error());
+    report["error"] = run.Error()->points > 0 ? ErrorJson(*run.Error()) : Json();
   }
   return ToText(report);
 }
