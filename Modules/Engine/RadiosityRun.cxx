@@ -18,7 +18,7 @@ constexpr double kReserveFactor = 1.3;
 constexpr double kMeasuringShare = 0.1;
 /// Seconds of reconstruction for a link before enough links were there to measure it: an upper
 /// figure of two threads.
-constexpr double kUsualSecondsPerLink = 1e-5;
+constexpr double kUsualSecondsPerLink = 4e-6;
 constexpr double kLinksToMeasure = 2e4;
 
 /// Decides after every iteration whether another one and the output fit into the time limit.
