@@ -118,10 +118,13 @@ class Judge {
     if (!canSource && !canReceiver) return Verdict::KeepAtFloor;
     if (!canSource) return Verdict::SplitReceiver;
     if (!canReceiver) return Verdict::SplitSource;
-    if (error.bySource == error.byReceiver) {
+    // By what each contributes; of a larger source more: a small receiver split further and further
+    // would in the end take the mean of it for the part of it that it sees.
+    const float size = std::max(1.f, source.radius / std::max(receiver.radius, 1e-20f));
+    if (error.bySource * size == error.byReceiver) {
       return source.radius > receiver.radius ? Verdict::SplitSource : Verdict::SplitReceiver;
     }
-    return error.bySource > error.byReceiver ? Verdict::SplitSource : Verdict::SplitReceiver;
+    return error.bySource * size > error.byReceiver ? Verdict::SplitSource : Verdict::SplitReceiver;
   }
 
   const float threshold_;
