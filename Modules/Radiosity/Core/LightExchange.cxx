@@ -8,6 +8,10 @@ namespace lambert {
 
 namespace {
 
+/// Largest share of what arrives at a leaf that a row sum over 1 may let leave it again: in gaps
+/// between bright surfaces more would make light of nothing, bounce by bounce.
+constexpr float kLargestGain = 0.95f;
+
 /// Sum of |transfer x radiosity| and of the vectors: volumes keep both, to tell light from one side
 /// from light from all.
 VectorIrradiance Gather(const Element& receiver, const std::vector<Link>& links,
@@ -104,7 +108,9 @@ void BoundRowSums(const ElementHierarchy& hierarchy, const LinkNetwork& network,
         sum += PushIrradiance(hierarchy[element.parent], unit[size_t(element.parent)], element);
       }
       const float row = ElementIrradiance(element, sum).r;
-      light->rowScale[size_t(index)] = row > bound ? bound / row : 1;
+      const float reflectance = std::max(element.reflectance.MaxBand(), 1e-6f);
+      const float own = std::min(bound, std::max(1.f, kLargestGain / reflectance));
+      light->rowScale[size_t(index)] = row > own ? own / row : 1;
     });
   }
 }
