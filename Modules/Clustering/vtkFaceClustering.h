@@ -35,7 +35,7 @@ class LAMBERTCLUSTERING_EXPORT vtkFaceClustering : public vtkPolyDataAlgorithm {
   double GetBalance();
   ///@}
   ///@{ Steps below the roots at which `ClusterId` cuts the tree; default 0, the surfaces. Counts
-  ///only
+  /// only
   /// where ClusterCount is 0.
   vtkSetClampMacro(Level, int, 0, VTK_INT_MAX);
   vtkGetMacro(Level, int);

@@ -66,10 +66,24 @@ double SourcePower(const Scene& scene) {
 
 }  // namespace
 
+/// The scene as it is, where it is what the solver needs.
+static const Scene& Checked(const Scene& scene) {
+  const TriangleMesh& mesh = scene.mesh;
+  if (mesh.normals.size() != mesh.positions.size() ||
+      mesh.surfaceId.size() != mesh.triangles.size()) {
+    throw Error(
+        "The mesh lacks point normals or surface numbers; make the first with CompletePointNormals "
+        "and "
+        "the "
+        "second with ClusterFaces.");
+  }
+  return scene;
+}
+
 struct HierarchicalRadiosity::Implementation {
   Implementation(const Scene& scene_, const ClusterTree& tree,
                  const HierarchicalRadiosityOptions& options_)
-      : scene(scene_),
+      : scene(Checked(scene_)),
         options(options_),
         rayScene(scene_.mesh),
         litSides(FindLitSides(scene_, tree, rayScene, &statistics.rays)),

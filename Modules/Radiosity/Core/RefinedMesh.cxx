@@ -116,6 +116,58 @@ float CornerAngle(const Vec3f& p, const Vec3f& a, const Vec3f& b) {
   return std::atan2(Length(Cross(u, v)), Dot(u, v));
 }
 
+int32_t VertexOf(const std::vector<Corner>& corners, const Range& group) {
+  return int32_t(corners[size_t(group.begin)].key & 0xffffffffu);
+}
+
+/// What meets at an output point: leaves by angle, and the means that the point carries.
+struct Meeting {
+  std::vector<LightReconstruction::Share> shares;
+  Vec3f faceNormal;  ///< not normalized
+  Spectrum reflectance, emittance;
+};
+
+Meeting MeetAt(int32_t vertex, const Range& group, const std::vector<Corner>& corners,
+               const std::vector<LeafTriangle>& triangles, const std::vector<int32_t>& leaves,
+               const TriangleMesh& input, const VertexReader& vertices) {
+  Meeting meeting;
+  float total = 0, weight = 0;
+  const Vec3f position = vertices.Position(vertex);
+  for (int64_t i = group.begin; i < group.end; ++i) {
+    // The corner's angle, and what its face adds to the means.
+    const Corner& corner = corners[size_t(i)];
+    const LeafTriangle& triangle = triangles[size_t(corner.triangle)];
+    const Vec3f a = vertices.Position(triangle.vertices[size_t(corner.corner + 1) % 3]);
+    const Vec3f b = vertices.Position(triangle.vertices[size_t(corner.corner + 2) % 3]);
+    const float angle = std::max(1e-6f, CornerAngle(position, a, b));
+    const Vec3f n = input.FrontNormal(triangle.face) * (triangle.side == kBack ? -1.f : 1.f);
+    meeting.faceNormal += n * angle;
+    meeting.reflectance += input.reflectance[size_t(triangle.face)] * angle;
+    if (input.Emits(triangle.face, Side(triangle.side))) {
+      meeting.emittance += input.emittance[size_t(triangle.face)] * angle;
+    }
+    total += angle;
+
+    // Its leaf's share.
+    const int32_t leaf = leaves[size_t(corner.triangle)];
+    if (leaf < 0) continue;
+    const Vec3f inside = (position + a + b) / 3.f;
+    auto same = std::find_if(meeting.shares.begin(), meeting.shares.end(),
+                             [&](const LightReconstruction::Share& s) { return s.leaf == leaf; });
+    if (same == meeting.shares.end()) same = meeting.shares.insert(same, {leaf, 0.f, Vec3f()});
+    same->weight += angle;
+    same->inside += inside * angle;
+    weight += angle;
+  }
+  for (LightReconstruction::Share& share : meeting.shares) {
+    share.inside /= share.weight;
+    share.weight /= weight;
+  }
+  meeting.reflectance *= 1 / total;
+  meeting.emittance *= 1 / total;
+  return meeting;
+}
+
 /// Fills the per-face arrays from the faces that the triangles lie in; back sides are wound the
 /// other way round.
 void FillFaces(const TriangleMesh& input, const std::vector<LeafTriangle>& triangles,
@@ -184,48 +236,22 @@ RadiositySolution MakeRefinedMesh(ElementHierarchy* hierarchy, const LightRecons
 
   // Light at each point: mean over the leaves that meet there, by angle.
   ParallelForEach(points, 64, [&](int64_t point) {
-    std::vector<LightReconstruction::Share> shares;
-    Vec3f faceNormal;
-    Spectrum reflectance, emittance;
-    float total = 0, weight = 0;
-    const int32_t vertex = int32_t(corners[size_t(groups[size_t(point)].begin)].key & 0xffffffffu);
-    const Vec3f position = vertices.Position(vertex);
-    for (int64_t i = groups[size_t(point)].begin; i < groups[size_t(point)].end; ++i) {
+    const Range& group = groups[size_t(point)];
+    for (int64_t i = group.begin; i < group.end; ++i) {
       const Corner& corner = corners[size_t(i)];
-      const LeafTriangle& triangle = triangles[size_t(corner.triangle)];
       solution.mesh.triangles[size_t(corner.triangle)][size_t(corner.corner)] = int32_t(point);
-      const Vec3f a = vertices.Position(triangle.vertices[size_t(corner.corner + 1) % 3]);
-      const Vec3f b = vertices.Position(triangle.vertices[size_t(corner.corner + 2) % 3]);
-      const float angle = std::max(1e-6f, CornerAngle(position, a, b));
-      const Vec3f n = input.FrontNormal(triangle.face) * (triangle.side == kBack ? -1.f : 1.f);
-      faceNormal += n * angle;
-      reflectance += input.reflectance[size_t(triangle.face)] * angle;
-      if (input.Emits(triangle.face, Side(triangle.side))) {
-        emittance += input.emittance[size_t(triangle.face)] * angle;
-      }
-      total += angle;
-      const int32_t leaf = leaves[size_t(corner.triangle)];
-      if (leaf < 0) continue;
-      const Vec3f inside = (position + a + b) / 3.f;
-      auto same = std::find_if(shares.begin(), shares.end(),
-                               [&](const LightReconstruction::Share& s) { return s.leaf == leaf; });
-      if (same == shares.end()) same = shares.insert(shares.end(), {leaf, 0.f, Vec3f()});
-      same->weight += angle;
-      same->inside += inside * angle;
-      weight += angle;
     }
+    const int32_t vertex = VertexOf(corners, group);
+    const Meeting meeting = MeetAt(vertex, group, corners, triangles, leaves, input, vertices);
     Vec3f normal = Normalize(vertices.Interpolate(input.normals, vertex));
-    if (Dot(normal, faceNormal) < 0) normal = -normal;
-    for (LightReconstruction::Share& share : shares) {
-      share.inside /= share.weight;
-      share.weight /= weight;
-    }
+    if (Dot(normal, meeting.faceNormal) < 0) normal = -normal;
     const size_t p = size_t(point);
-    solution.mesh.positions[p] = position;
+    solution.mesh.positions[p] = vertices.Position(vertex);
     solution.mesh.normals[p] = normal;
     if (!input.uvs.empty()) solution.mesh.uvs[p] = vertices.Interpolate(input.uvs, vertex);
-    solution.irradiance[p] = light.At(position, shares, &raysOfPoint[p]).At(normal);
-    solution.radiosity[p] = (reflectance * solution.irradiance[p] + emittance) / total;
+    solution.irradiance[p] =
+        light.At(solution.mesh.positions[p], meeting.shares, &raysOfPoint[p]).At(normal);
+    solution.radiosity[p] = meeting.reflectance * solution.irradiance[p] + meeting.emittance;
   });
   for (const int64_t cast : raysOfPoint) *rays += cast;
   FillFaces(input, triangles, leaves, &solution);
@@ -233,10 +259,9 @@ RadiositySolution MakeRefinedMesh(ElementHierarchy* hierarchy, const LightRecons
   // The input's own points take the brighter of their sides.
   solution.inputIrradiance.assign(input.positions.size(), {});
   for (int64_t point = 0; point < points; ++point) {
-    const uint32_t vertex =
-        uint32_t(corners[size_t(groups[size_t(point)].begin)].key & 0xffffffffu);
-    if (vertex >= input.positions.size()) continue;
-    Spectrum& brightest = solution.inputIrradiance[vertex];
+    const int32_t vertex = VertexOf(corners, groups[size_t(point)]);
+    if (vertex >= input.PointCount()) continue;
+    Spectrum& brightest = solution.inputIrradiance[size_t(vertex)];
     const Spectrum& here = solution.irradiance[size_t(point)];
     if (Luminance(here) > Luminance(brightest)) brightest = here;
   }

@@ -56,6 +56,33 @@ Cosines CosinesToward(const Element& element, const Vec3f& direction, float angu
   return {std::cos(std::max(0.f, angle - spread)), middle};
 }
 
+/// Lights: their kernel at the center, nothing known of it over a receiver that spans its distance.
+PairBound BoundLight(const ElementHierarchy& hierarchy, const Element& source,
+                     const Element& receiver) {
+  PairBound bound;
+  const Light& light = hierarchy.GetScene().lights[size_t(source.item)];
+  const bool isFar = light.type == LightType::Directional || light.type == LightType::Sky;
+  const float distance =
+      isFar ? hierarchy.SceneDiagonal() : Length(light.position - receiver.frame.center);
+  if (light.type != LightType::Sky && receiver.coneAngle < kPlanarCone) {
+    const Vec3f toward = isFar ? -light.direction : light.position - receiver.frame.center;
+    bound.apart = Dot(receiver.axis, toward) <= 0;
+  }
+  const float nearest = std::max(distance - receiver.radius, 0.1f * receiver.radius);
+  const float ratio = receiver.radius / std::max(nearest, 1e-20f);
+  bound.isSky = light.type == LightType::Sky;
+  bound.formFactor = light.type == LightType::Sky ? float(kPi)
+                     : light.type == LightType::Directional
+                         ? 1.f
+                         : 1 / std::max(nearest * nearest, 1e-20f);
+  bound.receiverSpread = receiver.IsVolume() || receiver.coneAngle > float(kPi) / 2
+                             ? 1.f
+                             : (isFar ? 0.f : Clamp01(ratio * ratio));
+  if (light.type == LightType::Spot)
+    bound.receiverSpread = Clamp01(std::max(bound.receiverSpread, ratio));
+  return bound;
+}
+
 }  // namespace
 
 PairBound BoundPair(const ElementHierarchy& hierarchy, const Element& source,
@@ -63,31 +90,7 @@ PairBound BoundPair(const ElementHierarchy& hierarchy, const Element& source,
   PairBound bound;
   const float noHeight = 1e-6f * hierarchy.SceneDiagonal();
 
-  // Lights: their kernel at the center, nothing known of it over a receiver that spans its
-  // distance.
-  if (source.kind == ElementKind::Light) {
-    const Light& light = hierarchy.GetScene().lights[size_t(source.item)];
-    const bool isFar = light.type == LightType::Directional || light.type == LightType::Sky;
-    const float distance =
-        isFar ? hierarchy.SceneDiagonal() : Length(light.position - receiver.frame.center);
-    if (light.type != LightType::Sky && receiver.coneAngle < kPlanarCone) {
-      const Vec3f toward = isFar ? -light.direction : light.position - receiver.frame.center;
-      bound.apart = Dot(receiver.axis, toward) <= 0;
-    }
-    const float nearest = std::max(distance - receiver.radius, 0.1f * receiver.radius);
-    const float ratio = receiver.radius / std::max(nearest, 1e-20f);
-    bound.isSky = light.type == LightType::Sky;
-    bound.formFactor = light.type == LightType::Sky ? float(kPi)
-                       : light.type == LightType::Directional
-                           ? 1.f
-                           : 1 / std::max(nearest * nearest, 1e-20f);
-    bound.receiverSpread = receiver.IsVolume() || receiver.coneAngle > float(kPi) / 2
-                               ? 1.f
-                               : (isFar ? 0.f : Clamp01(ratio * ratio));
-    if (light.type == LightType::Spot)
-      bound.receiverSpread = Clamp01(std::max(bound.receiverSpread, ratio));
-    return bound;
-  }
+  if (source.kind == ElementKind::Light) return BoundLight(hierarchy, source, receiver);
 
   // Planes cannot light what lies behind them.
   if (source.coneAngle < kPlanarCone &&

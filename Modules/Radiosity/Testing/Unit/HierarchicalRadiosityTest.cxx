@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Testing/TestScenes.h"
 
@@ -177,6 +180,19 @@ TEST(HierarchicalRadiosity, CancelledInTheMiddleKeepsTheLastIteration) {
              });
   EXPECT_EQ(solver.Statistics().stoppedBy, "interrupt");
   EXPECT_EQ(solver.Statistics().Links(), links);
+}
+
+TEST(HierarchicalRadiosity, RefusesWhatItCannotSolve) {
+  Scene scene = testing::BoxRoom(1, 0.5f, 1);
+  scene.mesh.Complete();
+  const ClusterTree tree = ClusterFaces(&scene.mesh, scene.parts);
+  HierarchicalRadiosityOptions options;
+  for (const double error : {0.0, -1.0, 2.0, double(NAN)}) {
+    options.error = error;
+    EXPECT_THROW(HierarchicalRadiosity(scene, tree, options), Error);
+  }
+  scene.mesh.normals.clear();
+  EXPECT_THROW(HierarchicalRadiosity(scene, tree), Error);
 }
 
 TEST(HierarchicalRadiosity, DegenerateFacesDoNoHarm) {
