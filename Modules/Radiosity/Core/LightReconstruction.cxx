@@ -16,6 +16,8 @@ constexpr float kInset = 1e-3f;
 /// Links that give less than this part of a receiver's light keep their stored visibility: no ray
 /// is worth it.
 constexpr float kNegligiblePart = 2e-2f;
+/// A corner of a cluster gets no more from a link than this many times its mean.
+constexpr float kMostOfMean = 3;
 /// Links that give less than this part are not evaluated anew within their triangle.
 constexpr float kFaintPart = 2e-3f;
 
@@ -155,6 +157,11 @@ void LightReconstruction::AddLinks(int32_t holder, const Element& receiver, cons
     if (castRays && isPartial &&
         Length(kernel) * radiosity.MaxBand() > kNegligiblePart * received) {
       visible = VisibleFraction(hierarchy_, rayScene_, source, x, horizon, rays);
+    }
+    if (!castRays) {
+      // A cluster's corner lies beside its faces and may see what none of them does.
+      const float most = kMostOfMean * Length(link.transfer);
+      visible = std::min(visible, most / std::max(Length(kernel), 1e-30f));
     }
     sum->Add(kernel * visible, radiosity);
     if (receiver.TurnsToAllSides()) sum->isotropic += radiosity * (Length(kernel) * visible);
