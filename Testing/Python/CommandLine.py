@@ -1,6 +1,7 @@
 """What the tests of the command line share: running it, and reading what it wrote."""
 import json
 import os
+import shutil
 import subprocess
 import sys
 
@@ -16,7 +17,7 @@ def temporary(name):
     os.makedirs(folder, exist_ok=True)
     path = os.path.join(folder, name)
     if os.path.exists(path):
-        os.remove(path)
+        shutil.rmtree(path) if os.path.isdir(path) else os.remove(path)
     return path
 
 
