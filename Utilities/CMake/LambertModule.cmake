@@ -30,14 +30,6 @@ function(lambert_add_core module)
     FILES_MATCHING PATTERN "*.h")
 endfunction()
 
-# lambert_add_shell(<Module> CLASSES ... [LINK ...]): the VTK classes of one module, from its vtk.module.
-function(lambert_add_shell module)
-  cmake_parse_arguments(arg "" "" "CLASSES;PRIVATE_CLASSES;LINK" ${ARGN})
-  vtk_module_add_module(Lambert::${module} CLASSES ${arg_CLASSES} PRIVATE_CLASSES ${arg_PRIVATE_CLASSES})
-  vtk_module_link(Lambert::${module} PRIVATE $<BUILD_INTERFACE:LambertFlags> ${arg_LINK})
-  vtk_module_include(Lambert::${module} PRIVATE "${CMAKE_SOURCE_DIR}/Modules")
-endfunction()
-
 # One GoogleTest program of every Testing/Unit/*Test.cxx, one ctest entry of every Testing/Python/Test*.py.
 function(lambert_add_module_tests module)
   set(directory "${CMAKE_SOURCE_DIR}/Modules/${module}/Testing")
