@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "Common/Core/Parallel.h"
+#include "Common/Core/PolygonIrradiance.h"
 #include "Common/Core/Random.h"
-#include "Radiosity/Core/PolygonIrradiance.h"
 
 namespace lambert {
 

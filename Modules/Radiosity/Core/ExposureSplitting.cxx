@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "Common/Core/Parallel.h"
+#include "Common/Core/PolygonIrradiance.h"
 #include "Common/Core/Random.h"
 #include "Radiosity/Core/LightExchange.h"
-#include "Radiosity/Core/PolygonIrradiance.h"
 
 namespace lambert {
 

@@ -2,9 +2,9 @@
 
 #include <array>
 
+#include "Common/Core/PolygonIrradiance.h"
 #include "Common/Core/Random.h"
 #include "Common/Core/SphericalTriangle.h"
-#include "Radiosity/Core/PolygonIrradiance.h"
 
 namespace lambert {
 

@@ -1,4 +1,4 @@
-#include "Radiosity/Core/PolygonIrradiance.h"
+#include "Common/Core/PolygonIrradiance.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // The closed form against published view factors: area to area by cubature of the exact
 // differential form factor.
-#include "Radiosity/Core/PolygonIrradiance.h"
+#include "Common/Core/PolygonIrradiance.h"
 
 #include <gtest/gtest.h>
 
