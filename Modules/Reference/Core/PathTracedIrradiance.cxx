@@ -6,7 +6,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
-#include "Reference/Core/EmitterTree.h"
+#include "Visibility/Core/EmitterTree.h"
 #include "Reference/Core/ReferenceRays.h"
 
 namespace lambert {

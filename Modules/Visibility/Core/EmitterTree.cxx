@@ -1,4 +1,4 @@
-#include "Reference/Core/EmitterTree.h"
+#include "Visibility/Core/EmitterTree.h"
 
 #include "Common/Core/Random.h"
 #include "Common/Core/SphericalTriangle.h"
