@@ -22,7 +22,6 @@
 #include "vtkRadiosityAlgorithm.h"
 
 #include <memory>  // for the options
-#include <string>  // for StoppedBy
 
 namespace lambert {
 struct HierarchicalRadiosityOptions;
@@ -47,13 +46,6 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   void SetIterations(int iterations);
   int GetIterations();
   ///@}
-  ///@{ Threads of the process; default 0: all processors.
-  vtkSetClampMacro(NumberOfThreads, int, 0, 1024);
-  vtkGetMacro(NumberOfThreads, int);
-  ///@}
-
-  /// Why the last run ended: error, time, iterations, interrupt, memory, floor; empty before a run.
-  const char* GetStoppedBy();
 
  protected:
   vtkHierarchicalRadiosity();
@@ -65,8 +57,6 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   void operator=(const vtkHierarchicalRadiosity&) = delete;
 
   std::unique_ptr<lambert::HierarchicalRadiosityOptions> Options;
-  int NumberOfThreads = 0;
-  std::string StoppedBy;
 };
 
 #endif

@@ -1,7 +1,12 @@
 #include "vtkRadiosityAlgorithm.h"
 
+#include "Common/Core/Error.h"
+#include "Common/Core/Parallel.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMethodPorts.h"
+#include "vtkPolyData.h"
 #include "vtkTable.h"
 
 vtkRadiosityAlgorithm::vtkRadiosityAlgorithm() {
@@ -23,7 +28,53 @@ int vtkRadiosityAlgorithm::FillOutputPortInformation(int port, vtkInformation* i
   return 1;
 }
 
+const char* vtkRadiosityAlgorithm::GetStoppedBy() { return this->StoppedBy.c_str(); }
+
+int vtkRadiosityAlgorithm::Guard(const std::function<void(const Progress&)>& work) {
+  this->StoppedBy.clear();
+  try {
+    lambert::SetThreadCount(this->NumberOfThreads);
+    work([this](double fraction, const char* stage) {
+      this->SetProgressText(stage);
+      this->UpdateProgress(fraction);
+      return !this->GetAbortExecute();
+    });
+    return 1;
+  } catch (const lambert::Cancelled&) {
+    this->StoppedBy = "interrupt";  // There is nothing to deliver.
+    return 1;
+  } catch (const std::exception& error) {
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+}
+
+int vtkRadiosityAlgorithm::RequestSolution(vtkInformationVector** inputs,
+                                           vtkInformationVector* outputs, const Method& method) {
+  vtkPolyData* input = vtkPolyData::GetData(inputs[0]);
+  vtkPolyData* lit = vtkPolyData::GetData(outputs, 2);
+  lit->ShallowCopy(input);
+  return this->Guard([&](const Progress& progress) {
+    const lambert::MethodScene methodScene = lambert::MethodSceneFromPolyData(input, this->Sky);
+    this->WarnOfDarkness(methodScene.scene);
+    lambert::SolverStatistics statistics;
+    const lambert::RadiositySolution solution = method(methodScene.scene, &statistics, progress);
+    this->StoppedBy = statistics.stoppedBy;
+    lambert::FillRefinedMesh(solution, methodScene, vtkPolyData::GetData(outputs, 0));
+    lambert::FillHistory(statistics, vtkTable::GetData(outputs, 1));
+    lambert::FillInputMesh(solution, methodScene, lit);
+  });
+}
+
+void vtkRadiosityAlgorithm::WarnOfDarkness(const lambert::Scene& scene) {
+  if (!scene.HasLight()) {
+    vtkWarningMacro("The scene has no light: no face emits, no lamp is given, the sky is black.");
+  }
+}
+
 void vtkRadiosityAlgorithm::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Sky: " << this->Sky[0] << " " << this->Sky[1] << " " << this->Sky[2] << "\n";
+  os << indent << "Sky: " << this->Sky[0] << " " << this->Sky[1] << " " << this->Sky[2] << "\n"
+     << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n"
+     << indent << "StoppedBy: " << this->StoppedBy << "\n";
 }
