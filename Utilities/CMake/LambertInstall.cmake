@@ -4,7 +4,7 @@ set(lambert_cmake_destination "${CMAKE_INSTALL_LIBDIR}/cmake/lambert")
 install(EXPORT LambertCore NAMESPACE Lambert:: FILE LambertCore-targets.cmake
   DESTINATION "${lambert_cmake_destination}")
 # Headers under the names that ours include each other by: Scene/vtkSceneLoader.h, Engine/RadiosityRun.h.
-foreach(module IN ITEMS Common Scene Clustering Visibility Radiosity Reference Display Engine)
+foreach(module IN ITEMS Common Scene Clustering Visibility Radiosity Classical Reference Display Engine)
   file(GLOB lambert_headers CONFIGURE_DEPENDS "${CMAKE_SOURCE_DIR}/Modules/${module}/*.h")
   install(FILES ${lambert_headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/lambert/${module}")
 endforeach()

@@ -1,0 +1,172 @@
+#include "Classical/Core/DirectLight.h"
+
+#include <array>
+
+#include "Common/Core/PolygonIrradiance.h"
+
+namespace lambert {
+
+namespace {
+
+/// So many emitting sides are evaluated in closed form at every point; more are chosen from by the
+/// tree.
+constexpr size_t kFewEmitters = 32;
+/// Pieces that an emitter's closed form may be taken at, for one point.
+constexpr size_t kMostPieces = 512;
+/// Additive recurrence after the generalized golden ratio of 2 dimensions (Roberts 2018).
+constexpr double kPlane[2] = {0.7548776662466927, 0.5698402909980532};
+
+double Fraction(double x) { return x - std::floor(x); }
+
+}  // namespace
+
+DirectLight::DirectLight(const Scene& scene, const RayScene& rays)
+    : scene_(scene), rays_(rays), tree_(scene.mesh) {
+  // Emitting sides, as long as they are few.
+  const TriangleMesh& mesh = scene.mesh;
+  for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
+    if (mesh.emittance[size_t(face)].IsBlack() || !(mesh.Area(face) > 0)) continue;
+    for (const Side side : {kFront, kBack}) {
+      if (!mesh.Emits(face, side)) continue;
+      Emitter emitter;
+      for (int c = 0; c < 3; ++c)
+        emitter.corners[c] = mesh.Corner(face, side == kFront ? c : 2 - c);
+      emitter.exitance = mesh.emittance[size_t(face)];
+      if (emitters_.size() <= kFewEmitters) emitters_.push_back(emitter);
+    }
+  }
+  if (emitters_.size() > kFewEmitters) emitters_.clear();
+
+  // Lights without geometry.
+  for (const Light& light : scene.lights) {
+    if (light.type == LightType::Sky) {
+      sky_ += light.intensity;
+    } else if (!light.intensity.IsBlack()) {
+      lights_.push_back(light);
+    }
+  }
+}
+
+Spectrum DirectLight::At(const LightReceiver& at, int count, Random* random, int64_t* cast) const {
+  Spectrum sum;
+  if (!emitters_.empty()) {
+    sum += FromFewEmitters(at, count, random, cast);
+  } else if (!tree_.IsEmpty()) {
+    sum += FromManyEmitters(at, count, random, cast);
+  }
+  for (const Light& light : lights_) sum += FromLight(at, light, cast);
+  return sum;
+}
+
+bool DirectLight::Unblocked(const LightReceiver& at, const Vec3f& place, int64_t* cast) const {
+  if (Dot(place - at.position, at.geometric) <= 0) return false;
+  ++*cast;
+  return !rays_.Occluded(at.position, place);
+}
+
+void DirectLight::Evaluate(const LightReceiver& at, Piece* piece) const {
+  const Vec3d kernel = PolygonIrradianceAbove(piece->corners, 3, at.position, at.normal);
+  const float factor = float(std::max(0.0, Dot(kernel, Vec3d(at.normal))));
+  piece->irradiance = emitters_[size_t(piece->emitter)].exitance * factor;
+  piece->strength = piece->irradiance.Mean();
+}
+
+/// All emitters in closed form, cut until each piece is worth no more than one ray; then rays at
+/// even steps over the sum of the pieces, each for its step.
+Spectrum DirectLight::FromFewEmitters(const LightReceiver& at, int count, Random* random,
+                                      int64_t* cast) const {
+  // Where nothing is in the way.
+  std::array<Piece, kMostPieces> pieces;
+  size_t size = 0;
+  float total = 0;
+  for (size_t i = 0; i < emitters_.size(); ++i) {
+    Piece& piece = pieces[size];
+    std::copy(emitters_[i].corners, emitters_[i].corners + 3, piece.corners);
+    piece.emitter = int32_t(i);
+    Evaluate(at, &piece);
+    if (!(piece.strength > 0)) continue;
+    total += piece.strength;
+    ++size;
+  }
+  if (!(total > 0)) return {};
+
+  // Halve the longest edge of what is worth more than a ray. One half takes the place of the whole,
+  // the other goes behind.
+  const float step = total / float(count);
+  for (size_t i = 0; i < size; ++i) {
+    while (pieces[i].strength > step && size < kMostPieces) {
+      Piece &whole = pieces[i], &half = pieces[size];
+      int longest = 0;
+      float length = -1;
+      for (int c = 0; c < 3; ++c) {
+        const float l = LengthSquared(whole.corners[(c + 1) % 3] - whole.corners[c]);
+        if (l > length) length = l, longest = c;
+      }
+      const int next = (longest + 1) % 3;
+      const Vec3f middle = (whole.corners[longest] + whole.corners[next]) * 0.5f;
+      half = whole;
+      half.corners[longest] = middle;
+      whole.corners[next] = middle;
+      Evaluate(at, &whole);
+      Evaluate(at, &half);
+      if (half.strength > 0) ++size;
+    }
+  }
+
+  // Rays.
+  Spectrum sum;
+  float below = 0, next = random->Uniform() * step;
+  for (size_t i = 0; i < size; ++i) {
+    const Piece& piece = pieces[i];
+    below += piece.strength;
+    for (; next < below; next += step) {
+      const float u = random->Uniform(), v = random->Uniform();
+      const Vec2f b = UniformTriangle(u, v);
+      const Vec3f place = piece.corners[0] + (piece.corners[1] - piece.corners[0]) * b.x +
+                          (piece.corners[2] - piece.corners[0]) * b.y;
+      if (Unblocked(at, place, cast)) sum += piece.irradiance * (step / piece.strength);
+    }
+  }
+  return sum;
+}
+
+/// Places chosen by the tree, stratified over its order.
+Spectrum DirectLight::FromManyEmitters(const LightReceiver& at, int count, Random* random,
+                                       int64_t* cast) const {
+  Spectrum sum;
+  const double shift[3] = {random->UniformDouble(), random->UniformDouble(),
+                           random->UniformDouble()};
+  for (int i = 0; i < count; ++i) {
+    const double u[3] = {(i + shift[0]) / count, Fraction(shift[1] + i * kPlane[0]),
+                         Fraction(shift[2] + i * kPlane[1])};
+    const EmitterTree::Sample sample = tree_.Pick(at.position, at.normal, u);
+    if (sample.face < 0 || !(sample.density > 0)) continue;
+    const float cosine = Dot(at.normal, sample.direction);
+    const Vec3f front = scene_.mesh.VectorArea(sample.face);
+    const Side side = Dot(front, sample.direction) < 0 ? kFront : kBack;
+    if (cosine <= 0 || !scene_.mesh.Emits(sample.face, side)) continue;
+    if (!Unblocked(at, at.position + sample.direction * sample.distance, cast)) continue;
+    sum += scene_.mesh.emittance[size_t(sample.face)] *
+           (cosine / (float(kPi) * sample.density * float(count)));
+  }
+  return sum;
+}
+
+Spectrum DirectLight::FromLight(const LightReceiver& at, const Light& light, int64_t* cast) const {
+  if (light.type == LightType::Directional) {
+    const Vec3f toward = Normalize(-light.direction);
+    const float cosine = Dot(at.normal, toward);
+    if (cosine <= 0 || Dot(at.geometric, toward) <= 0) return {};
+    ++*cast;
+    return rays_.OccludedDirection(at.position, toward) ? Spectrum() : light.intensity * cosine;
+  }
+  const Vec3f offset = light.position - at.position;
+  const float distance = Length(offset);
+  if (!(distance > 0)) return {};
+  const float cosine = Dot(at.normal, offset) / distance;
+  const float factor = cosine * light.ConeFactor(-offset / distance) / (distance * distance);
+  if (!(factor > 0) || !Unblocked(at, light.position, cast)) return {};
+  return light.intensity * factor;
+}
+
+}  // namespace lambert

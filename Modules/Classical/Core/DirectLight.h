@@ -1,0 +1,62 @@
+// Irradiance straight from the sources: closed form where nothing is in the way, rays for what is.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "Common/Core/Random.h"
+#include "Scene/Core/Scene.h"
+#include "Visibility/Core/EmitterTree.h"
+#include "Visibility/Core/RayScene.h"
+
+namespace lambert {
+
+/// A place that light is asked for: only directions of the hemispheres of both normals count, and
+/// irradiance is for `normal`.
+struct LightReceiver {
+  Vec3f position;   ///< world space, m
+  Vec3f normal;     ///< unit
+  Vec3f geometric;  ///< unit, of the side of the face that it lies on
+};
+
+class DirectLight {
+ public:
+  /// Keeps references to both; `rays` holds the scene's mesh.
+  DirectLight(const Scene& scene, const RayScene& rays);
+
+  /// Irradiance (W/m2) from emitting faces, point, spot and directional lights; not from the sky.
+  /// `count` rays go to emitting faces, in proportion to what these send where nothing is in the
+  /// way, and one to each light. Adds the rays cast to `cast`.
+  Spectrum At(const LightReceiver& at, int count, Random* random, int64_t* cast) const;
+
+  const Spectrum& Sky() const { return sky_; }  ///< radiance of all skies, W/(m2 sr)
+
+ private:
+  /// An emitting side of a face, or a piece of it.
+  struct Piece {
+    Vec3f corners[3];      ///< counter-clockwise from the emitting side
+    Spectrum irradiance;   ///< that it sends where nothing is in the way, W/m2
+    float strength = 0;    ///< mean of that over the bands
+    int32_t emitter = -1;  ///< row of emitters_
+  };
+  struct Emitter {
+    Vec3f corners[3];
+    Spectrum exitance;  ///< W/m2
+  };
+
+  Spectrum FromFewEmitters(const LightReceiver& at, int count, Random* random, int64_t* cast) const;
+  Spectrum FromManyEmitters(const LightReceiver& at, int count, Random* random,
+                            int64_t* cast) const;
+  Spectrum FromLight(const LightReceiver& at, const Light& light, int64_t* cast) const;
+  bool Unblocked(const LightReceiver& at, const Vec3f& place, int64_t* cast) const;
+  void Evaluate(const LightReceiver& at, Piece* piece) const;
+
+  const Scene& scene_;
+  const RayScene& rays_;
+  EmitterTree tree_;
+  std::vector<Emitter> emitters_;  ///< where they are few; else empty
+  std::vector<Light> lights_;      ///< without the skies
+  Spectrum sky_;
+};
+
+}  // namespace lambert
