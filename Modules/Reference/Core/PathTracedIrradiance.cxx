@@ -6,8 +6,8 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
-#include "Visibility/Core/EmitterTree.h"
 #include "Reference/Core/ReferenceRays.h"
+#include "Visibility/Core/EmitterTree.h"
 
 namespace lambert {
 
@@ -60,13 +60,16 @@ struct PathTracedIrradiance::Implementation {
 
   IrradianceEstimate EstimateAt(const ReceiverPoint& point, uint64_t index,
                                 const PathTracedIrradianceOptions& options) const;
-  Spectrum Path(const Vertex& receiver, const double u[2], int maximumDepth, Random* random) const;
-  Spectrum FromEmitters(const Vertex& at, const double u[3]) const;
-  Spectrum FromLight(const Vertex& at, const Light& light) const;
+  std::array<double, 3> SumOfPaths(const Vertex& receiver, uint64_t seed, PathRange paths,
+                                   int maximumDepth, int64_t* rayCount) const;
+  Spectrum Path(const Vertex& receiver, const double u[2], int maximumDepth, Random* random,
+                int64_t* rayCount) const;
+  Spectrum FromEmitters(const Vertex& at, const double u[3], int64_t* rayCount) const;
+  Spectrum FromLight(const Vertex& at, const Light& light, int64_t* rayCount) const;
   Spectrum Unshadowed(const Vertex& at, const Light& light, Vec3f* direction,
                       float* distance) const;
-  Spectrum FromAllLights(const Vertex& at) const;
-  Spectrum FromOneLight(const Vertex& at, Random* random) const;
+  Spectrum FromAllLights(const Vertex& at, int64_t* rayCount) const;
+  Spectrum FromOneLight(const Vertex& at, Random* random, int64_t* rayCount) const;
 
   const Scene& scene;
   ReferenceRays rays;
@@ -90,8 +93,8 @@ PathTracedIrradiance::Implementation::Implementation(const Scene& scene_)
 
 /// One sample of the irradiance from emitting faces, weighted against the cosine rays that may hit
 /// them too.
-Spectrum PathTracedIrradiance::Implementation::FromEmitters(const Vertex& at,
-                                                            const double u[3]) const {
+Spectrum PathTracedIrradiance::Implementation::FromEmitters(const Vertex& at, const double u[3],
+                                                            int64_t* rayCount) const {
   if (emitters.IsEmpty()) return {};
   const EmitterTree::Sample sample = emitters.Pick(at.position, at.normal, u);
   if (sample.face < 0 || !(sample.density > 0) || sample.distance < rays.Nearest()) return {};
@@ -100,6 +103,7 @@ Spectrum PathTracedIrradiance::Implementation::FromEmitters(const Vertex& at,
   const Vec3f toward = scene.mesh.VectorArea(sample.face);
   const Side side = Dot(toward, sample.direction) < 0 ? kFront : kBack;
   if (!scene.mesh.Emits(sample.face, side)) return {};
+  ++*rayCount;
   if (rays.Blocked(at, sample.direction, sample.distance)) return {};
   const float weight = PowerHeuristic(sample.density, cosine / float(kPi));
   const Spectrum radiance = scene.mesh.emittance[size_t(sample.face)] / float(kPi);
@@ -123,24 +127,26 @@ Spectrum PathTracedIrradiance::Implementation::Unshadowed(const Vertex& at, cons
   return light.intensity * (cosine * attenuation);
 }
 
-Spectrum PathTracedIrradiance::Implementation::FromLight(const Vertex& at,
-                                                         const Light& light) const {
+Spectrum PathTracedIrradiance::Implementation::FromLight(const Vertex& at, const Light& light,
+                                                         int64_t* rayCount) const {
   Vec3f direction;
   float distance = 0;
   const Spectrum irradiance = Unshadowed(at, light, &direction, &distance);
-  if (irradiance.IsBlack() || rays.Blocked(at, direction, distance)) return {};
-  return irradiance;
+  if (irradiance.IsBlack()) return {};
+  ++*rayCount;
+  return rays.Blocked(at, direction, distance) ? Spectrum() : irradiance;
 }
 
-Spectrum PathTracedIrradiance::Implementation::FromAllLights(const Vertex& at) const {
+Spectrum PathTracedIrradiance::Implementation::FromAllLights(const Vertex& at,
+                                                             int64_t* rayCount) const {
   Spectrum sum;
-  for (const Light& light : punctual) sum += FromLight(at, light);
+  for (const Light& light : punctual) sum += FromLight(at, light, rayCount);
   return sum;
 }
 
 /// One light, chosen by what it would give if nothing stood between.
-Spectrum PathTracedIrradiance::Implementation::FromOneLight(const Vertex& at,
-                                                            Random* random) const {
+Spectrum PathTracedIrradiance::Implementation::FromOneLight(const Vertex& at, Random* random,
+                                                            int64_t* rayCount) const {
   Vec3f direction;
   float distance = 0;
   double total = 0;
@@ -150,7 +156,7 @@ Spectrum PathTracedIrradiance::Implementation::FromOneLight(const Vertex& at,
   for (const Light& light : punctual) {
     const double share = Unshadowed(at, light, &direction, &distance).Mean();
     rest -= share;
-    if (rest < 0) return FromLight(at, light) * float(total / share);
+    if (rest < 0) return FromLight(at, light, rayCount) * float(total / share);
   }
   return {};
 }
@@ -160,7 +166,8 @@ Spectrum PathTracedIrradiance::Implementation::FromOneLight(const Vertex& at,
 /// Light that reaches the receiver over one path, except straight from emitters by choice and from
 /// punctual lights; its first direction comes from u, the others from `random`.
 Spectrum PathTracedIrradiance::Implementation::Path(const Vertex& receiver, const double u[2],
-                                                    int maximumDepth, Random* random) const {
+                                                    int maximumDepth, Random* random,
+                                                    int64_t* rayCount) const {
   const TriangleMesh& mesh = scene.mesh;
   Spectrum sum, throughput(1.f);
   Vertex at = receiver;
@@ -176,6 +183,7 @@ Spectrum PathTracedIrradiance::Implementation::Path(const Vertex& receiver, cons
     // It escapes to the sky, or meets a side of a face. What that emits is weighted against the
     // choice of emitters.
     ReferenceHit hit;
+    ++*rayCount;
     if (!rays.Closest(at, direction, &hit)) return sum + throughput * sky * float(kPi);
     if (mesh.Emits(hit.face, hit.side)) {
       const float density =
@@ -195,42 +203,67 @@ Spectrum PathTracedIrradiance::Implementation::Path(const Vertex& receiver, cons
     at = hit.vertex;
     const double choice[3] = {random->UniformDouble(), random->UniformDouble(),
                               random->UniformDouble()};
-    sum += throughput * (FromEmitters(at, choice) + FromOneLight(at, random));
+    sum += throughput * (FromEmitters(at, choice, rayCount) + FromOneLight(at, random, rayCount));
     u0 = random->Uniform(), u1 = random->Uniform();
   }
 }
 
+/// The light of some of the paths of a point set: additive recurrences under shifts by `seed`.
+std::array<double, 3> PathTracedIrradiance::Implementation::SumOfPaths(const Vertex& receiver,
+                                                                       uint64_t seed,
+                                                                       PathRange paths,
+                                                                       int maximumDepth,
+                                                                       int64_t* rayCount) const {
+  std::array<double, 3> sum{};
+  Random shifts(seed);
+  double shift[5];
+  for (double& s : shift) s = shifts.UniformDouble();
+  for (int i = paths.begin; i < paths.end; ++i) {
+    const double first[2] = {Fraction(shift[0] + i * kPlane[0]),
+                             Fraction(shift[1] + i * kPlane[1])};
+    const double choice[3] = {Fraction(shift[2] + i * kSpace[0]),
+                              Fraction(shift[3] + i * kSpace[1]),
+                              Fraction(shift[4] + i * kSpace[2])};
+    Random random(HashBits(seed, uint64_t(i)));
+    const Spectrum light = FromEmitters(receiver, choice, rayCount) +
+                           Path(receiver, first, maximumDepth, &random, rayCount);
+    for (size_t band = 0; band < 3; ++band) sum[band] += double(light[int(band)]);
+  }
+  return sum;
+}
+
+namespace {
+
+/// False where the point is no place for light to arrive at. A point without a normal of its own
+/// takes the geometric one.
+bool MakeReceiver(const ReceiverPoint& point, Vertex* receiver) {
+  *receiver = {point.position, Normalize(point.normal), Normalize(point.geometricNormal)};
+  if (LengthSquared(receiver->geometric) == 0) receiver->geometric = receiver->normal;
+  if (LengthSquared(receiver->normal) == 0) receiver->normal = receiver->geometric;
+  return LengthSquared(receiver->normal) > 0 && IsFinite(receiver->position);
+}
+
+}  // namespace
+
 IrradianceEstimate PathTracedIrradiance::Implementation::EstimateAt(
     const ReceiverPoint& point, uint64_t index, const PathTracedIrradianceOptions& options) const {
-  // A point without a normal of its own takes the geometric one.
-  Vertex receiver{point.position, Normalize(point.normal), Normalize(point.geometricNormal)};
-  if (LengthSquared(receiver.geometric) == 0) receiver.geometric = receiver.normal;
-  if (LengthSquared(receiver.normal) == 0) receiver.normal = receiver.geometric;
-  if (!(LengthSquared(receiver.normal) > 0) || !IsFinite(receiver.position)) return {};
+  Vertex receiver;
+  if (!MakeReceiver(point, &receiver)) return {};
 
   // Replicates of one point set under independent random shifts: their spread is an honest error.
   const int replicates = std::min(16, options.samples);
   const int samples = (options.samples + replicates - 1) / replicates;
+  int64_t rayCount = 0;
   ReplicateMean mean;
   for (int replicate = 0; replicate < replicates; ++replicate) {
-    Random random(HashBits(options.seed, HashBits(index, uint64_t(replicate))));
-    double shift[5];
-    for (double& s : shift) s = random.UniformDouble();
-    std::array<double, 3> sum{};
-    for (int i = 0; i < samples; ++i) {
-      const double first[2] = {Fraction(shift[0] + i * kPlane[0]),
-                               Fraction(shift[1] + i * kPlane[1])};
-      const double choice[3] = {Fraction(shift[2] + i * kSpace[0]),
-                                Fraction(shift[3] + i * kSpace[1]),
-                                Fraction(shift[4] + i * kSpace[2])};
-      const Spectrum light =
-          FromEmitters(receiver, choice) + Path(receiver, first, options.maximumDepth, &random);
-      for (size_t band = 0; band < 3; ++band) sum[band] += double(light[int(band)]) / samples;
-    }
-    mean.Add(sum);
+    const uint64_t seed = HashBits(options.seed, HashBits(index, uint64_t(replicate)));
+    std::array<double, 3> light =
+        SumOfPaths(receiver, seed, {0, samples}, options.maximumDepth, &rayCount);
+    for (double& band : light) band /= samples;
+    mean.Add(light);
   }
   IrradianceEstimate estimate = mean.Estimate();
-  estimate.irradiance += FromAllLights(receiver);
+  estimate.irradiance += FromAllLights(receiver, &rayCount);
   return estimate;
 }
 
@@ -259,6 +292,20 @@ std::vector<IrradianceEstimate> PathTracedIrradiance::Estimate(
   }
   if (!Report(progress, 1, "Tracing paths")) throw Cancelled();
   return estimates;
+}
+
+std::array<double, 3> PathTracedIrradiance::SumOfPaths(const ReceiverPoint& point, uint64_t seed,
+                                                       PathRange paths, int64_t* rays) const {
+  Vertex receiver;
+  if (!MakeReceiver(point, &receiver) || paths.end <= paths.begin) return {};
+  const int maximumDepth = PathTracedIrradianceOptions().maximumDepth;
+  std::array<double, 3> sum =
+      implementation_->SumOfPaths(receiver, seed, paths, maximumDepth, rays);
+  const Spectrum lights = implementation_->FromAllLights(receiver, rays);
+  for (size_t band = 0; band < 3; ++band) {
+    sum[band] += double(lights[int(band)]) * (paths.end - paths.begin);
+  }
+  return sum;
 }
 
 }  // namespace lambert

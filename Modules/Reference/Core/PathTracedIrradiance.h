@@ -2,6 +2,7 @@
 // contract's mesh alone: its own rays, its own offsets, nothing of trees, sides or visibility code.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -35,6 +36,11 @@ struct IrradianceEstimate {
   Spectrum standardError;  ///< W/m2, of the mean, per band
 };
 
+/// A run of the paths of one receiver: those numbered [begin, end) of its point set.
+struct PathRange {
+  int begin = 0, end = 0;
+};
+
 /// Path tracer over a scene. Both sides of a face reflect and block.
 class PathTracedIrradiance {
  public:
@@ -48,6 +54,13 @@ class PathTracedIrradiance {
   std::vector<IrradianceEstimate> Estimate(const std::vector<ReceiverPoint>& points,
                                            const PathTracedIrradianceOptions& options = {},
                                            const ProgressCallback& progress = {}) const;
+
+  /// Sum over `paths` of the light that each brings to `point`, W/m2: divided by their number it is
+  /// the irradiance. The paths of one `seed` share one point set, so that sums over adjoining
+  /// ranges add up to the sum over the whole; receivers need seeds of their own. Adds the rays cast
+  /// to `rays`. Safe to call from several threads; faster within FlushDenormals.
+  std::array<double, 3> SumOfPaths(const ReceiverPoint& point, uint64_t seed, PathRange paths,
+                                   int64_t* rays) const;
 
  private:
   struct Implementation;
