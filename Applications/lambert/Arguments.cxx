@@ -1,6 +1,7 @@
 #include "Arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -40,6 +41,13 @@ CLI::Validator Within(double low, double high, const std::string& description) {
         return good ? std::string() : "\"" + text + "\" is not a number " + description;
       },
       "");
+}
+
+/// Of a name that was checked to be one of a method.
+SolveMethod MethodOfName(const std::string& name) {
+  return std::find_if(SolveMethods().begin(), SolveMethods().end(),
+                      [&](const SolveMethodTraits& traits) { return traits.name == name; })
+      ->method;
 }
 
 CLI::Validator NotNegative() {
@@ -93,10 +101,24 @@ void SceneArguments::Apply(RadiosityRunOptions* options) const {
 }
 
 void SolveArguments::AddTo(CLI::App* command) {
+  command_ = command;
   scene.AddTo(command);
 
-  // How well and how long.
+  // How, how well and how long.
   command->add_option("-o,--output", output, "Solved scene, .vtp or .ply")->required();
+  std::vector<std::string> names;
+  for (const SolveMethodTraits& traits : SolveMethods()) names.push_back(traits.name);
+  command
+      ->add_option_function<std::string>(
+          "--method", [this](const std::string& name) { method.method = MethodOfName(name); },
+          "How to solve")
+      ->check(CLI::IsMember(names))
+      ->default_str(names.front());
+  command->add_option("--samples", method.reference.samples, "Reference: paths a vertex")
+      ->check(CLI::Range(1, 100000000))
+      ->capture_default_str();
+  command->add_option("--seed", method.reference.seed, "Reference: another choice of paths")
+      ->capture_default_str();
   command->add_option("--error", solver.error, "Wanted relative RMS error of irradiance, (0, 1]")
       ->check(Within(1e-6, 1, "from 1e-6 to 1"))
       ->capture_default_str();
@@ -137,6 +159,7 @@ void SolveArguments::AddTo(CLI::App* command) {
 }
 
 void SolveArguments::Check() const {
+  RequireOptionsOfMethod();
   if (!IsSolutionFileName(output)) {
     throw CLI::ValidationError("--output", "the name has to end in .vtp or .ply");
   }
@@ -150,6 +173,18 @@ void SolveArguments::Check() const {
   RequireDifferentFiles();
   ImageSize();
   ImageCamera();
+}
+
+void SolveArguments::RequireOptionsOfMethod() const {
+  const SolveMethodTraits& chosen = TraitsOf(method.method);
+  for (const SolveMethodTraits& traits : SolveMethods()) {
+    for (const std::string& option : traits.options) {
+      const auto& own = chosen.options;
+      if (std::find(own.begin(), own.end(), option) != own.end()) continue;
+      if (command_->count(option) == 0) continue;
+      throw CLI::ValidationError(option, "is no option of --method " + chosen.name);
+    }
+  }
 }
 
 void SolveArguments::RequireDifferentFiles() const {
@@ -205,6 +240,7 @@ std::optional<Camera> SolveArguments::ImageCamera() const {
 RadiosityRunOptions SolveArguments::RunOptions() const {
   RadiosityRunOptions options;
   scene.Apply(&options);
+  options.method = method;
   options.solver = solver;
   options.timeLimit = time;
   if (!sky.empty()) options.sky = ToSpectrum(sky);

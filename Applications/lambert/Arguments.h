@@ -36,6 +36,7 @@ struct SceneArguments {
 struct SolveArguments {
   SceneArguments scene;
   std::string output;
+  SolveMethodOptions method;
   HierarchicalRadiosityOptions solver;
   double time = 0;
   int threads = 0;
@@ -58,6 +59,10 @@ struct SolveArguments {
  private:
   /// Throws CLI::ValidationError where an output would write over another file of the run.
   void RequireDifferentFiles() const;
+  /// Throws CLI::ValidationError where an option was given that is another method's.
+  void RequireOptionsOfMethod() const;
+
+  CLI::App* command_ = nullptr;
 };
 
 struct InfoArguments {

@@ -128,7 +128,7 @@ int Solve(const SolveArguments& arguments) {
   run.Load(progress);
   for (const std::string& warning : run.Warnings()) display.Say("warning: " + warning);
   run.RequireLight();
-  display.Begin("clustering");
+  if (arguments.method.method == SolveMethod::Hierarchical) display.Begin("clustering");
   run.Cluster(progress);
   display.Begin("solving");
   run.Solve(progress, IsInterrupted, [&](const IterationRecord& r) { display.EndIteration(r); });

@@ -111,6 +111,9 @@ void RadiosityRun::RequireLight() const {
 }
 
 void RadiosityRun::Cluster(const ProgressCallback& progress) {
+  if (this->options_.method.method != SolveMethod::Hierarchical) {
+    return;
+  }
   Timer timer;
   this->tree_ = ClusterFaces(&this->scene_.mesh, this->scene_.parts, this->options_.clustering,
                              &this->clustering_, progress);
@@ -119,6 +122,11 @@ void RadiosityRun::Cluster(const ProgressCallback& progress) {
 
 void RadiosityRun::Solve(const ProgressCallback& progress, const std::function<bool()>& interrupted,
                          const std::function<void(const IterationRecord&)>& observer) {
+  if (this->options_.method.method != SolveMethod::Hierarchical) {
+    this->SolveInOnePass(progress);
+    return;
+  }
+
   // Iterate. The clock and the user end a run at the border of an iteration only.
   Timer timer;
   TimeBudget budget(this->options_.timeLimit, this->options_.outputSeconds);
@@ -150,6 +158,13 @@ void RadiosityRun::Solve(const ProgressCallback& progress, const std::function<b
     this->statistics_.stoppedBy = stoppedBy;
   }
   this->AddStage("reconstruct", timer.Seconds());
+}
+
+void RadiosityRun::SolveInOnePass(const ProgressCallback& progress) {
+  Timer timer;
+  this->solution_ =
+      lambert::SolveInOnePass(this->scene_, this->options_.method, &this->statistics_, progress);
+  this->AddStage("solve", timer.Seconds());
 }
 
 void RadiosityRun::Verify(int points, const ProgressCallback& progress) {

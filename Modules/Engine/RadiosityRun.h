@@ -9,6 +9,7 @@
 #include "Scene/Core/RadiositySolution.h"
 #include "Scene/Core/SceneCleaning.h"
 #include "Scene/Core/SceneReader.h"
+#include "SolveMethod.h"
 #include "lambertEngineModule.h"
 
 #include <memory>
@@ -24,10 +25,11 @@ struct RadiosityRunOptions {
   std::vector<std::string> settings;  ///< changes to materials, as ApplyMaterialSetting takes them
   CleaningOptions cleaning;
   FaceClusteringOptions clustering;
-  HierarchicalRadiosityOptions solver;
-  std::optional<Spectrum> sky;  ///< radiance of a constant sky, W/(m2 sr)
-  double timeLimit = 0;         ///< seconds since the process began, writing included; 0: none
-  double outputSeconds = 0.2;   ///< kept free for what is not proportional to the mesh (a picture)
+  SolveMethodOptions method;
+  HierarchicalRadiosityOptions solver;  ///< of the method Hierarchical
+  std::optional<Spectrum> sky;          ///< radiance of a constant sky, W/(m2 sr)
+  double timeLimit = 0;        ///< seconds since the process began, writing included; 0: none
+  double outputSeconds = 0.2;  ///< kept free for what is not proportional to the mesh (a picture)
 };
 
 /// Runs the stages one after the other and keeps what each made.
@@ -40,11 +42,12 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   void Load(const ProgressCallback& progress = {});
   /// Throws Error, before any work, for a scene without light.
   void RequireLight() const;
-  /// Builds the face-cluster tree. Throws Cancelled.
+  /// Builds the face-cluster tree, for the method Hierarchical alone. Throws Cancelled.
   void Cluster(const ProgressCallback& progress = {});
   /// Solves until the request is met, until another iteration and the output would not fit into the
   /// time limit, or until `interrupted` says so; all end at the border of an iteration. `observer`
-  /// hears of every iteration.
+  /// hears of every iteration. Another method than Hierarchical runs through; it is cancelled by
+  /// `progress`. Throws Error, Cancelled.
   void Solve(const ProgressCallback& progress = {}, const std::function<bool()>& interrupted = {},
              const std::function<void(const IterationRecord&)>& observer = {});
   /// Measures how far the solution is from a path-traced reference at `points` points.
@@ -67,6 +70,8 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   void AddStage(const std::string& name, double seconds);
 
  private:
+  void SolveInOnePass(const ProgressCallback& progress);
+
   RadiosityRunOptions options_;
   Scene scene_;
   ReadReport reading_;

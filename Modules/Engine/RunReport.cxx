@@ -5,6 +5,7 @@
 #include "RadiosityRun.h"
 #include "SceneSummary.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace lambert {
@@ -108,6 +109,19 @@ Json ErrorJson(const SolutionError& e) {
           {"points", e.points}};
 }
 
+Json MethodJson(const RadiosityRunOptions& options) {
+  Json method = {{"name", TraitsOf(options.method.method).name}};
+  if (options.method.method == SolveMethod::Hierarchical) {
+    method["error"] = options.solver.error;
+    method["time"] = options.timeLimit;
+    method["iterations"] = options.solver.iterations;
+  }
+  for (const auto& [name, value] : ValuesOf(options.method)) {
+    method[name] = value == std::floor(value) ? Json(static_cast<int64_t>(value)) : Json(value);
+  }
+  return method;
+}
+
 Json SecondsJson(const RadiosityRun& run) {
   Json seconds;
   for (const auto& [name, value] : run.Stages()) {
@@ -137,7 +151,10 @@ std::string RunReportJson(const RadiosityRun& run, const std::string& version) {
   Json report;
   report["lambert"] = version;
   AddSceneAndCleanUp(run, &report);
-  report["clustering"] = ClusteringJson(run.Clustering());
+  const bool isHierarchical = run.Options().method.method == SolveMethod::Hierarchical;
+  if (isHierarchical) {
+    report["clustering"] = ClusteringJson(run.Clustering());
+  }
 
   // What it cost.
   const SolverStatistics& s = run.Statistics();
@@ -146,7 +163,10 @@ std::string RunReportJson(const RadiosityRun& run, const std::string& version) {
   report["peak_memory_bytes"] = PeakMemoryBytes();
 
   // How the light came about.
-  report["requested_error"] = run.Options().solver.error;
+  report["method"] = MethodJson(run.Options());
+  if (isHierarchical) {
+    report["requested_error"] = run.Options().solver.error;
+  }
   report["stopped_by"] = s.stoppedBy;
   report["iterations"] = s.history.size();
   report["elements"] = {{"total", s.Elements()},
@@ -155,9 +175,11 @@ std::string RunReportJson(const RadiosityRun& run, const std::string& version) {
                         {"patch", s.patchElements}};
   report["links"] = LinksJson(s);
   report["rays"] = s.rays;
-  report["energy_w"] = {{"emitted", ToJson(s.emitted)},
-                        {"absorbed", ToJson(s.absorbed)},
-                        {"escaped", ToJson(s.escaped)}};
+  if (!s.emitted.IsBlack()) {
+    report["energy_w"] = {{"emitted", ToJson(s.emitted)},
+                          {"absorbed", ToJson(s.absorbed)},
+                          {"escaped", ToJson(s.escaped)}};
+  }
   report["history"] = HistoryJson(s);
 
   // What came out.
