@@ -223,6 +223,7 @@ void ElementCells::ListFragments(const std::vector<float>& areas) {
   // The largest first; areas summed up to choose places by; means.
   areaUpTo_.resize(fragmentsOfCell_.size());
   cellReflectance_.resize(cellArea_.size());
+  cellEmittance_.resize(2 * cellArea_.size());
   ParallelForEach(Size(), 1024, [&](int64_t cell) {
     const auto begin = fragmentsOfCell_.begin() + firstOfCell_[size_t(cell)];
     const auto end = fragmentsOfCell_.begin() + firstOfCell_[size_t(cell) + 1];

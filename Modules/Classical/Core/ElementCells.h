@@ -34,6 +34,10 @@ class ElementCells {
   float Area(int32_t cell) const { return cellArea_[size_t(cell)]; }  ///< m2, of one side
   /// Mean over the cell by area.
   const Spectrum& Reflectance(int32_t cell) const { return cellReflectance_[size_t(cell)]; }
+  /// Mean exitance of one side by area, W/m2.
+  const Spectrum& Emittance(int32_t cell, Side side) const {
+    return cellEmittance_[size_t(cell) * 2 + size_t(side)];
+  }
   /// A place uniform over one side of the cell.
   SurfacePlace Sample(int32_t cell, Side side, Random* random) const;
   Vec3f Center(int32_t cell) const;  ///< of its largest fragment, m
@@ -74,6 +78,7 @@ class ElementCells {
   std::vector<int32_t> cellOfFragment_;  ///< -1: does not exist
   std::vector<float> cellArea_;
   std::vector<Spectrum> cellReflectance_;
+  std::vector<Spectrum> cellEmittance_;                 ///< front, back
   std::vector<int32_t> firstOfCell_, fragmentsOfCell_;  ///< the largest first
   std::vector<float> areaUpTo_;                         ///< over the fragments of each cell
 };

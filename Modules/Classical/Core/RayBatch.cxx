@@ -72,8 +72,8 @@ std::vector<int32_t> CoherentOrder(const std::vector<Vec3f>& positions,
     const Vec3f& n = normals[size_t(i)];
     // The octant counts within a cube of a 64th of the scene.
     const uint64_t octant = uint64_t(n.x < 0) | uint64_t(n.y < 0) << 1 | uint64_t(n.z < 0) << 2;
-    const uint64_t morton = SpreadBits(uint64_t(p.x)) | SpreadBits(uint64_t(p.y)) << 1 |
-                            SpreadBits(uint64_t(p.z)) << 2;
+    const uint64_t morton =
+        SpreadBits(uint64_t(p.x)) | SpreadBits(uint64_t(p.y)) << 1 | SpreadBits(uint64_t(p.z)) << 2;
     constexpr int kFineBits = 33;
     const uint64_t fine = morton & ((uint64_t(1) << kFineBits) - 1);
     keyed[size_t(i)] = {(morton >> kFineBits << 3 | octant) << kFineBits | fine, int32_t(i)};

@@ -19,15 +19,16 @@ struct LightReceiver {
   Vec3f geometric;  ///< unit, of the side of the face that it lies on
 };
 
-class DirectLight {
+class SourceLight {
  public:
   /// Keeps references to both; `rays` holds the scene's mesh.
-  DirectLight(const Scene& scene, const RayScene& rays);
+  SourceLight(const Scene& scene, const RayScene& rays);
 
-  /// Irradiance (W/m2) from emitting faces, point, spot and directional lights; not from the sky.
-  /// `count` rays go to emitting faces, in proportion to what these send where nothing is in the
-  /// way, and one to each light. Adds the rays cast to `cast`.
-  Spectrum At(const LightReceiver& at, int count, Random* random, int64_t* cast) const;
+  /// Irradiance (W/m2) from emitting faces by `count` rays, in proportion to what these send where
+  /// nothing is in the way. Adds the rays cast to `cast`.
+  Spectrum FromEmitters(const LightReceiver& at, int count, Random* random, int64_t* cast) const;
+  /// Irradiance (W/m2) from point, spot and directional lights, by a ray each.
+  Spectrum FromLights(const LightReceiver& at, int64_t* cast) const;
 
   const Spectrum& Sky() const { return sky_; }  ///< radiance of all skies, W/(m2 sr)
 

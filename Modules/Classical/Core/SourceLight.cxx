@@ -1,6 +1,4 @@
-#include "Classical/Core/DirectLight.h"
-
-#include <array>
+#include "Classical/Core/SourceLight.h"
 
 #include "Common/Core/PolygonIrradiance.h"
 
@@ -20,7 +18,7 @@ double Fraction(double x) { return x - std::floor(x); }
 
 }  // namespace
 
-DirectLight::DirectLight(const Scene& scene, const RayScene& rays)
+SourceLight::SourceLight(const Scene& scene, const RayScene& rays)
     : scene_(scene), rays_(rays), tree_(scene.mesh) {
   // Emitting sides, as long as they are few.
   const TriangleMesh& mesh = scene.mesh;
@@ -47,24 +45,25 @@ DirectLight::DirectLight(const Scene& scene, const RayScene& rays)
   }
 }
 
-Spectrum DirectLight::At(const LightReceiver& at, int count, Random* random, int64_t* cast) const {
+Spectrum SourceLight::FromEmitters(const LightReceiver& at, int count, Random* random,
+                                   int64_t* cast) const {
+  if (!emitters_.empty()) return FromFewEmitters(at, count, random, cast);
+  return tree_.IsEmpty() ? Spectrum() : FromManyEmitters(at, count, random, cast);
+}
+
+Spectrum SourceLight::FromLights(const LightReceiver& at, int64_t* cast) const {
   Spectrum sum;
-  if (!emitters_.empty()) {
-    sum += FromFewEmitters(at, count, random, cast);
-  } else if (!tree_.IsEmpty()) {
-    sum += FromManyEmitters(at, count, random, cast);
-  }
   for (const Light& light : lights_) sum += FromLight(at, light, cast);
   return sum;
 }
 
-bool DirectLight::Unblocked(const LightReceiver& at, const Vec3f& place, int64_t* cast) const {
+bool SourceLight::Unblocked(const LightReceiver& at, const Vec3f& place, int64_t* cast) const {
   if (Dot(place - at.position, at.geometric) <= 0) return false;
   ++*cast;
   return !rays_.Occluded(at.position, place);
 }
 
-void DirectLight::Evaluate(const LightReceiver& at, Piece* piece) const {
+void SourceLight::Evaluate(const LightReceiver& at, Piece* piece) const {
   const Vec3d kernel = PolygonIrradianceAbove(piece->corners, 3, at.position, at.normal);
   const float factor = float(std::max(0.0, Dot(kernel, Vec3d(at.normal))));
   piece->irradiance = emitters_[size_t(piece->emitter)].exitance * factor;
@@ -73,29 +72,29 @@ void DirectLight::Evaluate(const LightReceiver& at, Piece* piece) const {
 
 /// All emitters in closed form, cut until each piece is worth no more than one ray; then rays at
 /// even steps over the sum of the pieces, each for its step.
-Spectrum DirectLight::FromFewEmitters(const LightReceiver& at, int count, Random* random,
+Spectrum SourceLight::FromFewEmitters(const LightReceiver& at, int count, Random* random,
                                       int64_t* cast) const {
   // Where nothing is in the way.
-  std::array<Piece, kMostPieces> pieces;
-  size_t size = 0;
+  thread_local std::vector<Piece> pieces;
+  pieces.clear();
   float total = 0;
   for (size_t i = 0; i < emitters_.size(); ++i) {
-    Piece& piece = pieces[size];
+    Piece piece;
     std::copy(emitters_[i].corners, emitters_[i].corners + 3, piece.corners);
     piece.emitter = int32_t(i);
     Evaluate(at, &piece);
     if (!(piece.strength > 0)) continue;
     total += piece.strength;
-    ++size;
+    pieces.push_back(piece);
   }
   if (!(total > 0)) return {};
 
   // Halve the longest edge of what is worth more than a ray. One half takes the place of the whole,
   // the other goes behind.
   const float step = total / float(count);
-  for (size_t i = 0; i < size; ++i) {
-    while (pieces[i].strength > step && size < kMostPieces) {
-      Piece &whole = pieces[i], &half = pieces[size];
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    while (pieces[i].strength > step && pieces.size() < kMostPieces) {
+      Piece& whole = pieces[i];
       int longest = 0;
       float length = -1;
       for (int c = 0; c < 3; ++c) {
@@ -104,20 +103,19 @@ Spectrum DirectLight::FromFewEmitters(const LightReceiver& at, int count, Random
       }
       const int next = (longest + 1) % 3;
       const Vec3f middle = (whole.corners[longest] + whole.corners[next]) * 0.5f;
-      half = whole;
+      Piece half = whole;
       half.corners[longest] = middle;
       whole.corners[next] = middle;
       Evaluate(at, &whole);
       Evaluate(at, &half);
-      if (half.strength > 0) ++size;
+      if (half.strength > 0) pieces.push_back(half);
     }
   }
 
   // Rays.
   Spectrum sum;
   float below = 0, next = random->Uniform() * step;
-  for (size_t i = 0; i < size; ++i) {
-    const Piece& piece = pieces[i];
+  for (const Piece& piece : pieces) {
     below += piece.strength;
     for (; next < below; next += step) {
       const float u = random->Uniform(), v = random->Uniform();
@@ -131,7 +129,7 @@ Spectrum DirectLight::FromFewEmitters(const LightReceiver& at, int count, Random
 }
 
 /// Places chosen by the tree, stratified over its order.
-Spectrum DirectLight::FromManyEmitters(const LightReceiver& at, int count, Random* random,
+Spectrum SourceLight::FromManyEmitters(const LightReceiver& at, int count, Random* random,
                                        int64_t* cast) const {
   Spectrum sum;
   const double shift[3] = {random->UniformDouble(), random->UniformDouble(),
@@ -152,7 +150,7 @@ Spectrum DirectLight::FromManyEmitters(const LightReceiver& at, int count, Rando
   return sum;
 }
 
-Spectrum DirectLight::FromLight(const LightReceiver& at, const Light& light, int64_t* cast) const {
+Spectrum SourceLight::FromLight(const LightReceiver& at, const Light& light, int64_t* cast) const {
   if (light.type == LightType::Directional) {
     const Vec3f toward = Normalize(-light.direction);
     const float cosine = Dot(at.normal, toward);

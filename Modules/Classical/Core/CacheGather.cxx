@@ -1,0 +1,171 @@
+#include "Classical/Core/CacheGather.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "Common/Core/Error.h"
+#include "Common/Core/Parallel.h"
+
+namespace lambert {
+
+namespace {
+
+/// Rays that are traced together.
+constexpr int kRaysPerBatch = 1024;
+
+class CacheGatherer {
+ public:
+  CacheGatherer(const Scene& scene, const RayScene& rays, const SourceLight& sources,
+                const ElementCache& cache, const std::vector<LightReceiver>& points,
+                const CacheGatherOptions& options)
+      : scene_(scene),
+        rays_(rays),
+        sources_(sources),
+        cache_(cache),
+        points_(points),
+        options_(options) {}
+
+  /// Gathers at points_[order[0]], ... Results go to their own places of `irradiance`.
+  void Gather(const int32_t* order, int count, Spectrum* irradiance, int64_t* cast);
+
+ private:
+  struct Nearby {
+    int32_t point;  ///< that the light goes to
+    Spectrum reflectance;
+    Spectrum direct;
+  };
+
+  void StartRays(int32_t point);
+  Side SideOf(const RayHit& hit, const Vec3f& direction) const {
+    return Dot(scene_.mesh.VectorArea(hit.face), direction) < 0 ? kFront : kBack;
+  }
+  /// What comes along a ray, as radiosity, W/m2.
+  Spectrum Read(const RayBatch& batch, int32_t ray) const;
+  void Follow(int32_t ray, int32_t point, int64_t* cast);
+
+  const Scene& scene_;
+  const RayScene& rays_;
+  const SourceLight& sources_;
+  const ElementCache& cache_;
+  const std::vector<LightReceiver>& points_;
+  const CacheGatherOptions& options_;
+  RayBatch first_, second_;
+  std::vector<Nearby> nearby_;
+};
+
+/// Cosine-weighted rays, a Hammersley set under a random shift of the point's own.
+void CacheGatherer::StartRays(int32_t point) {
+  const LightReceiver& at = points_[size_t(point)];
+  Random random(HashBits(options_.seed, uint64_t(point)));
+  const float shift0 = random.Uniform(), shift1 = random.Uniform();
+  Vec3f s, t;
+  CoordinateSystem(at.normal, &s, &t);
+  for (int i = 0; i < options_.rays; ++i) {
+    const float u = (float(i) + shift0) / float(options_.rays);
+    const Vec3f local = CosineHemisphere(u, RadicalInverse(uint32_t(i), shift1));
+    first_.Add(at.position, Normalize(s * local.x + t * local.y + at.normal * local.z));
+  }
+}
+
+Spectrum CacheGatherer::Read(const RayBatch& batch, int32_t ray) const {
+  const RayHit& hit = batch.Hit(ray);
+  if (hit.face < 0) return sources_.Sky() * float(kPi);
+  return cache_.Reflected(hit.face, SideOf(hit, batch.Direction(ray)), hit.barycentric);
+}
+
+/// Near by, a cell is too coarse: the light of the place itself, by one more ray.
+void CacheGatherer::Follow(int32_t ray, int32_t point, int64_t* cast) {
+  const RayHit& hit = first_.Hit(ray);
+  const Side side = SideOf(hit, first_.Direction(ray));
+  const Vec3f normal = scene_.mesh.FrontNormal(hit.face) * (side == kFront ? 1.f : -1.f);
+  const LightReceiver at{first_.HitPosition(ray), normal, normal};
+  Random random(HashBits(HashBits(options_.seed, uint64_t(point)), uint64_t(ray) + 1));
+  const Spectrum direct =
+      sources_.FromEmitters(at, 1, &random, cast) + sources_.FromLights(at, cast);
+  nearby_.push_back({point, scene_.mesh.reflectance[size_t(hit.face)], direct});
+  Vec3f s, t;
+  CoordinateSystem(normal, &s, &t);
+  const float u = random.Uniform(), v = random.Uniform();
+  const Vec3f local = CosineHemisphere(u, v);
+  second_.Add(at.position, Normalize(s * local.x + t * local.y + normal * local.z));
+}
+
+void CacheGatherer::Gather(const int32_t* order, int count, Spectrum* irradiance, int64_t* cast) {
+  first_.Clear();
+  second_.Clear();
+  nearby_.clear();
+  for (int i = 0; i < count; ++i) StartRays(order[i]);
+  first_.Trace(rays_);
+
+  // What the rays read, but for those that must go further.
+  const float perRay = 1 / float(options_.rays);
+  for (int i = 0; i < count; ++i) {
+    const int32_t point = order[i];
+    const LightReceiver& at = points_[size_t(point)];
+    Spectrum sum;
+    for (int32_t ray = i * options_.rays; ray < (i + 1) * options_.rays; ++ray) {
+      if (Dot(first_.Direction(ray), at.geometric) <= 0) continue;
+      const RayHit& hit = first_.Hit(ray);
+      if (hit.face >= 0 && double(hit.distance) < options_.nearby) {
+        Follow(ray, point, cast);
+      } else {
+        sum += Read(first_, ray);
+      }
+    }
+    irradiance[point] = sum * perRay;
+  }
+  second_.Trace(rays_);
+  for (int32_t ray = 0; ray < second_.Size(); ++ray) {
+    const Nearby& place = nearby_[size_t(ray)];
+    irradiance[place.point] += place.reflectance * (place.direct + Read(second_, ray)) * perRay;
+  }
+
+  // Straight from the sources.
+  for (int i = 0; i < count; ++i) {
+    const int32_t point = order[i];
+    Random random(HashBits(options_.seed, ~uint64_t(point)));
+    irradiance[point] +=
+        sources_.FromEmitters(points_[size_t(point)], options_.emitterRays, &random, cast) +
+        sources_.FromLights(points_[size_t(point)], cast);
+  }
+  *cast += first_.Size() + second_.Size();
+}
+
+}  // namespace
+
+std::vector<Spectrum> GatherFromCache(const Scene& scene, const RayScene& rays,
+                                      const SourceLight& sources, const ElementCache& cache,
+                                      const std::vector<LightReceiver>& points,
+                                      const CacheGatherOptions& options, int64_t* cast,
+                                      const ProgressCallback& progress) {
+  // Neighbours together.
+  std::vector<Vec3f> positions, normals;
+  for (const LightReceiver& point : points) {
+    positions.push_back(point.position);
+    normals.push_back(point.normal);
+  }
+  const std::vector<int32_t> order = CoherentOrder(positions, normals);
+
+  // Batches, a stretch of them between two reports.
+  std::vector<Spectrum> irradiance(points.size());
+  const int64_t count = int64_t(points.size());
+  const int64_t perBatch = std::max(1, kRaysPerBatch / options.rays);
+  const int64_t batches = (count + perBatch - 1) / perBatch;
+  constexpr int64_t kStretch = 1024;
+  std::vector<int64_t> castByBatch(size_t(batches), 0);
+  for (int64_t first = 0; first < batches; first += kStretch) {
+    if (!Report(progress, double(first) / double(batches), "Gathering")) throw Cancelled();
+    ParallelFor(std::min(kStretch, batches - first), 4, [&](int64_t begin, int64_t end) {
+      CacheGatherer gatherer(scene, rays, sources, cache, points, options);
+      for (int64_t batch = first + begin; batch < first + end; ++batch) {
+        const int64_t from = batch * perBatch, to = std::min(count, from + perBatch);
+        gatherer.Gather(&order[size_t(from)], int(to - from), irradiance.data(),
+                        &castByBatch[size_t(batch)]);
+      }
+    });
+  }
+  *cast += std::accumulate(castByBatch.begin(), castByBatch.end(), int64_t(0));
+  return irradiance;
+}
+
+}  // namespace lambert

@@ -1,0 +1,28 @@
+// Light at points: straight from the sources, and by rays into the element cache.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "Classical/Core/ElementCache.h"
+#include "Classical/Core/SourceLight.h"
+#include "Common/Core/Progress.h"
+
+namespace lambert {
+
+struct CacheGatherOptions {
+  int rays = 64;         ///< a point, over the hemisphere, [1, inf)
+  int emitterRays = 16;  ///< a point, to emitting faces, [1, inf)
+  double nearby = 0;     ///< m; hits nearer than this are not read but followed one bounce further
+  uint64_t seed = 1;
+};
+
+/// Irradiance (W/m2) at every point. What point i receives depends on the scene, the options and i
+/// alone. Adds the rays cast to `cast`. Throws Cancelled.
+std::vector<Spectrum> GatherFromCache(const Scene& scene, const RayScene& rays,
+                                      const SourceLight& sources, const ElementCache& cache,
+                                      const std::vector<LightReceiver>& points,
+                                      const CacheGatherOptions& options, int64_t* cast,
+                                      const ProgressCallback& progress = {});
+
+}  // namespace lambert
