@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <new>
 
+#include "BenchArguments.h"
 #include "Commands.h"
 #include "Common/Core/Error.h"
 
@@ -28,13 +29,17 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   lambert::SolveArguments solve;
   lambert::InfoArguments info;
+  lambert::BenchArguments bench;
   CLI::App* solveCommand = app.add_subcommand("solve", "Light a scene");
   CLI::App* infoCommand = app.add_subcommand("info", "Say what a scene holds");
+  CLI::App* benchCommand = app.add_subcommand("bench", "Chart methods: error, time, elements");
   solve.AddTo(solveCommand);
   info.AddTo(infoCommand);
+  bench.AddTo(benchCommand);
   try {
     app.parse(argc, argv);
     if (*solveCommand) solve.Check();
+    if (*benchCommand) bench.Check();
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kWrongUsage;
   }
@@ -42,6 +47,7 @@ int main(int argc, char** argv) {
   // Whatever fails says so in one sentence of ours.
   vtkObject::GlobalWarningDisplayOff();
   try {
+    if (*benchCommand) return lambert::Bench(bench);
     return *infoCommand ? lambert::Info(info) : lambert::Solve(solve);
   } catch (const lambert::Cancelled&) {
     return Complain("Interrupted before the first iteration; nothing was written.", kFailed);

@@ -1,0 +1,97 @@
+#include "BenchMethods.h"
+
+#include "Clustering/Core/FaceClustering.h"
+#include "Common/Core/Error.h"
+#include "Common/Core/Timer.h"
+#include "Radiosity/Core/HierarchicalRadiosity.h"
+#include "Reference/Core/PathTracedBake.h"
+
+#include <numeric>
+
+namespace lambert {
+namespace {
+
+/// Runs a method that is one function, with its statistics.
+template <class Solve>
+BenchOutcome TimeOneStage(const Solve& solve) {
+  BenchOutcome outcome;
+  const Timer timer;
+  outcome.solution = solve(&outcome.statistics);
+  outcome.seconds = outcome.iterations = timer.Seconds();
+  return outcome;
+}
+
+BenchOutcome RunPathTracedBake(const Scene& scene, double samples, uint64_t seed) {
+  PathTracedBakeOptions options;
+  options.samples = int(samples);
+  options.seed = seed;
+  return TimeOneStage([&](SolverStatistics* s) { return BakePathTraced(scene, options, s); });
+}
+
+}  // namespace
+
+const std::vector<BenchMethod>& BenchMethods() {
+  static const std::vector<BenchMethod> methods{
+      {"hierarchical", "hierarchical", "error", false, true, 0,
+       [](const Scene& scene, double error, uint64_t) { return RunHierarchical(scene, error); }},
+      {"reference", "path-traced bake", "samples", false, false, 0, RunPathTracedBake},
+  };
+  return methods;
+}
+
+const BenchMethod& FindBenchMethod(const std::string& name) {
+  std::string names;
+  for (const BenchMethod& method : BenchMethods()) {
+    if (method.name == name) return method;
+    names += (names.empty() ? "" : ", ") + std::string(method.name);
+  }
+  throw Error("There is no method \"" + name + "\"; there are " + names + ".");
+}
+
+BenchOutcome RunHierarchical(const Scene& scene, double error, const ShownObserver& shown) {
+  // The numbers of the faces ride along, for the way back from tree order.
+  Scene clustered = scene;
+  std::iota(clustered.mesh.sourceCellId.begin(), clustered.mesh.sourceCellId.end(), 0);
+  const auto nameFacesOfScene = [&](RadiositySolution* solution) {
+    for (int64_t& face : solution->inputFaceId) {
+      face = clustered.mesh.sourceCellId[size_t(face)];
+    }
+  };
+
+  BenchOutcome outcome;
+  Timer timer;
+  const ClusterTree tree = ClusterFaces(&clustered.mesh, clustered.parts);
+  outcome.clustering = timer.Seconds();
+
+  timer.Restart();
+  HierarchicalRadiosityOptions options;
+  options.error = error;
+  HierarchicalRadiosity solver(clustered, tree, options);
+  outcome.setup = timer.Seconds();
+
+  // What is shown between iterations takes its reconstruction; hearing of it takes no time.
+  timer.Restart();
+  double hearing = 0;
+  solver.Run({}, [&](const IterationRecord& record) {
+    if (!shown) return true;
+    RadiositySolution solution = solver.Solution();
+    const double seconds = timer.Seconds() - hearing;
+    const Timer hearingTimer;
+    nameFacesOfScene(&solution);
+    const bool goOn = shown(outcome.clustering + outcome.setup + seconds, record, solution);
+    hearing += hearingTimer.Seconds();
+    return goOn;
+  });
+  outcome.iterations = timer.Seconds() - hearing;
+
+  timer.Restart();
+  outcome.solution = solver.Solution();
+  outcome.reconstruction = timer.Seconds();
+  outcome.seconds =
+      outcome.clustering + outcome.setup + outcome.iterations + outcome.reconstruction;
+  outcome.statistics = solver.Statistics();
+  nameFacesOfScene(&outcome.solution);
+  return outcome;
+}
+
+}  // namespace lambert

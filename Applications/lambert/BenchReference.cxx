@@ -1,0 +1,203 @@
+#include "BenchReference.h"
+
+#include "BenchError.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+
+#include "Common/Core/Error.h"
+#include "Common/Core/Random.h"
+#include "Visibility/Core/SolutionLookup.h"
+
+namespace lambert {
+namespace {
+
+/// Paths that find out whether a receiver is lit, at it and at a point this far toward the middle
+/// of its face. Receivers are nearer to their vertex than rays start from surfaces, so that within
+/// a closed solid those at its edges see out.
+constexpr int kDarknessPaths = 64;
+constexpr float kInnerDraw = 0.1f;
+/// Of the file and of how receivers are chosen and traced: another one is traced anew.
+constexpr uint64_t kVersion = 2;
+
+template <class T>
+uint64_t HashOf(const std::vector<T>& values, uint64_t seed) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  uint64_t hash = HashBits(seed, values.size());
+  const auto* bytes = reinterpret_cast<const char*>(values.data());
+  for (size_t i = 0, size = values.size() * sizeof(T); i < size; i += sizeof(uint64_t)) {
+    uint64_t word = 0;
+    std::memcpy(&word, bytes + i, std::min(sizeof word, size - i));
+    hash = HashBits(hash, word);
+  }
+  return hash;
+}
+
+/// All that light depends on, and what is asked of the reference.
+uint64_t ContentKey(const Scene& scene, const BenchReferenceOptions& options) {
+  const TriangleMesh& mesh = scene.mesh;
+  uint64_t key = HashBits(kVersion, options.seed);
+  key = HashBits(key, uint64_t(options.receivers) << 32 | uint64_t(options.paths));
+  key = HashOf(mesh.positions, key);
+  key = HashOf(mesh.normals, key);
+  key = HashOf(mesh.triangles, key);
+  key = HashOf(mesh.reflectance, key);
+  key = HashOf(mesh.emittance, key);
+  key = HashOf(mesh.faceFlags, key);
+  for (const Light& light : scene.lights) {
+    key = HashOf<float>(
+        {float(light.type), light.position.x, light.position.y, light.position.z, light.direction.x,
+         light.direction.y, light.direction.z, light.intensity.r, light.intensity.g,
+         light.intensity.b, light.innerConeAngle, light.outerConeAngle},
+        key);
+  }
+  return key;
+}
+
+template <class T>
+bool ReadVector(std::ifstream* file, uint64_t limit, std::vector<T>* values) {
+  uint64_t count = 0;
+  file->read(reinterpret_cast<char*>(&count), sizeof count);
+  if (!*file || count > limit) return false;
+  values->resize(size_t(count));
+  file->read(reinterpret_cast<char*>(values->data()), std::streamsize(count * sizeof(T)));
+  return bool(*file);
+}
+
+template <class T>
+void WriteVector(const std::vector<T>& values, std::ofstream* file) {
+  const uint64_t count = values.size();
+  file->write(reinterpret_cast<const char*>(&count), sizeof count);
+  file->write(reinterpret_cast<const char*>(values.data()), std::streamsize(count * sizeof(T)));
+}
+
+bool ReadReference(const std::string& name, int receivers, BenchReference* reference) {
+  std::ifstream file(name, std::ios::binary);
+  return file && ReadVector(&file, uint64_t(receivers), &reference->receivers) &&
+         ReadVector(&file, uint64_t(receivers), &reference->light) &&
+         reference->light.size() == reference->receivers.size();
+}
+
+void WriteReference(const std::string& name, const BenchReference& reference) {
+  // Under another name first: a bench that is cut short leaves no half reference.
+  const std::string unfinished = name + ".part";
+  std::ofstream file(unfinished, std::ios::binary);
+  WriteVector(reference.receivers, &file);
+  WriteVector(reference.light, &file);
+  std::error_code failed;
+  if (file.flush()) std::filesystem::rename(unfinished, name, failed);
+  if (!file || failed) throw Error("The reference " + name + " could not be written.");
+}
+
+std::vector<ReceiverPoint> Points(const std::vector<VertexReceiver>& receivers) {
+  std::vector<ReceiverPoint> points;
+  for (const VertexReceiver& receiver : receivers) points.push_back(receiver.receiver);
+  return points;
+}
+
+/// The sides of vertices that receive and do not emit, in random order.
+std::vector<VertexReceiver> ShuffledReceivers(const TriangleMesh& mesh, uint64_t seed) {
+  std::vector<VertexReceiver> receivers = VertexReceivers(mesh);
+  const auto emits = [&](const VertexReceiver& r) {
+    return (mesh.Emits(r.face, kFront) || mesh.Emits(r.face, kBack)) &&
+           !mesh.emittance[size_t(r.face)].IsBlack();
+  };
+  receivers.erase(std::remove_if(receivers.begin(), receivers.end(), emits), receivers.end());
+  Random random(HashBits(seed, 0x7265636569766572ull));
+  for (size_t i = receivers.size(); i > 1; --i) {
+    std::swap(receivers[i - 1], receivers[size_t(random.UniformDouble() * double(i))]);
+  }
+  return receivers;
+}
+
+/// The same sides of the same faces, farther from the vertex.
+std::vector<ReceiverPoint> InnerPoints(const TriangleMesh& mesh,
+                                       const std::vector<VertexReceiver>& receivers) {
+  std::vector<ReceiverPoint> points = Points(receivers);
+  for (size_t i = 0; i < points.size(); ++i) {
+    const int32_t face = receivers[i].face;
+    const Vec3f middle = (mesh.Corner(face, 0) + mesh.Corner(face, 1) + mesh.Corner(face, 2)) / 3.f;
+    points[i].position += (middle - points[i].position) * kInnerDraw;
+  }
+  return points;
+}
+
+/// The first `count` of `candidates` that a few paths find lit.
+std::vector<VertexReceiver> LitReceivers(const TriangleMesh& mesh,
+                                         const std::vector<VertexReceiver>& candidates,
+                                         const PathTracedIrradiance& tracer, size_t count,
+                                         uint64_t seed) {
+  PathTracedIrradianceOptions few;
+  few.samples = kDarknessPaths;
+  few.seed = HashBits(seed, 0x6461726bull);
+  std::vector<VertexReceiver> lit;
+  for (size_t begin = 0; begin < candidates.size() && lit.size() < count; begin += count) {
+    const size_t end = std::min(candidates.size(), begin + count);
+    const std::vector<VertexReceiver> batch(candidates.begin() + int64_t(begin),
+                                            candidates.begin() + int64_t(end));
+    const auto atVertex = tracer.Estimate(Points(batch), few);
+    const auto inside = tracer.Estimate(InnerPoints(mesh, batch), few);
+    for (size_t i = 0; i < batch.size() && lit.size() < count; ++i) {
+      if (!atVertex[i].irradiance.IsBlack() && !inside[i].irradiance.IsBlack()) {
+        lit.push_back(batch[i]);
+      }
+    }
+  }
+  return lit;
+}
+
+}  // namespace
+
+BenchReference TraceBenchReference(const BenchScene& bench, const BenchReferenceOptions& options) {
+  // What an earlier bench left.
+  std::string name;
+  if (!options.folder.empty()) {
+    std::error_code failed;
+    std::filesystem::create_directories(options.folder, failed);
+    if (failed) throw Error("The folder " + options.folder + " cannot be made.");
+    char key[17];
+    std::snprintf(key, sizeof key, "%016llx",
+                  static_cast<unsigned long long>(ContentKey(bench.scene, options)));
+    name =
+        (std::filesystem::path(options.folder) / (bench.name + "-" + key + ".reference")).string();
+  }
+  BenchReference reference;
+  if (!name.empty() && ReadReference(name, options.receivers, &reference)) return reference;
+
+  // Lit vertices, many paths each.
+  const PathTracedIrradiance tracer(bench.scene);
+  reference.receivers =
+      LitReceivers(bench.scene.mesh, ShuffledReceivers(bench.scene.mesh, options.seed), tracer,
+                   size_t(options.receivers), options.seed);
+  if (reference.receivers.empty()) throw Error("No vertex of " + bench.name + " receives light.");
+  PathTracedIrradianceOptions trace;
+  trace.samples = options.paths;
+  trace.seed = options.seed;
+  reference.light = tracer.Estimate(Points(reference.receivers), trace);
+  if (!name.empty()) WriteReference(name, reference);
+  return reference;
+}
+
+SolutionError MeasureAtReceivers(const BenchScene& bench, const BenchReference& reference,
+                                 const RadiositySolution& solution, bool ofCoarsest) {
+  const bool coarse = ofCoarsest && bench.coarse;
+  const Scene& solved = coarse ? *bench.coarse : bench.scene;
+  const SolutionLookup lookup(solution, solved.mesh.FaceCount());
+  std::vector<Spectrum> delivered;
+  int64_t missed = 0;
+  for (const VertexReceiver& r : reference.receivers) {
+    // A rewound side keeps its meaning: tessellation keeps the winding.
+    const int32_t face = coarse ? bench.coarseFace[size_t(r.face)] : r.face;
+    missed += !lookup.Models(face, r.side);
+    delivered.push_back(lookup.Irradiance(lookup.Find(face, r.side, r.receiver.position)));
+  }
+  SolutionError error = SummarizeError(delivered, reference.light);
+  error.missedPoints = missed;
+  return error;
+}
+
+}  // namespace lambert
