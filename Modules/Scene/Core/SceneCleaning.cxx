@@ -4,6 +4,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
+#include "Scene/Core/FacingEmitters.h"
 #include "Scene/Core/InvertedEmitters.h"
 #include "Scene/Core/MeshRepair.h"
 #include "Scene/Core/PointNormals.h"
@@ -100,17 +101,27 @@ std::vector<CleanedMesh> CleanMeshes(SceneAssembly* assembly, const CleaningOpti
   return cleaned;
 }
 
-void TurnEmitters(const std::vector<CleanedMesh>& meshes, const PartRanges& ranges, Scene* scene,
-                  CleaningReport* report) {
-  const std::vector<int64_t> turned = TurnInvertedEmitters(meshes, ranges, scene);
+/// Counts the lamps of each material that were turned, and names it.
+void ReportTurned(const std::vector<int64_t>& turned, const char* what, const char* why,
+                  const Scene& scene, CleaningReport* report) {
   for (size_t material = 0; material < turned.size(); ++material) {
     if (turned[material] == 0) continue;
     report->invertedEmitters += turned[material];
-    report->warnings.push_back(
-        std::to_string(turned[material]) + " closed emitting piece(s) of material '" +
-        scene->materials[material].name +
-        "' shone inward with nothing inside and were taken as inverted; they shine outward now.");
+    report->warnings.push_back(std::to_string(turned[material]) + what + " of material '" +
+                               scene.materials[material].name + why);
   }
+}
+
+void TurnEmitters(const std::vector<CleanedMesh>& meshes, const PartRanges& ranges, Scene* scene,
+                  CleaningReport* report) {
+  ReportTurned(TurnInvertedEmitters(meshes, ranges, scene), " closed emitting piece(s)",
+               "' shone inward with nothing inside and were taken as inverted; they shine outward "
+               "now.",
+               *scene, report);
+  ReportTurned(TurnFacingEmitters(meshes, ranges, scene), " emitting piece(s)",
+               "' shone at nothing but a surface at no distance and were taken as inverted; they "
+               "shine from their other side now.",
+               *scene, report);
 }
 
 /// What placing has flattened: far from the origin, or through a matrix that squashes.

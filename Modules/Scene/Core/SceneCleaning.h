@@ -14,8 +14,8 @@ struct CleaningOptions {
       true;  ///< drop triangles that repeat another of the part, in either winding
   bool orient =
       true;  ///< wind connected pieces consistently (kRewound records it; emission keeps its side)
-  bool fixEmitters =
-      true;  ///< turn closed emitting pieces that are wound inward with nothing inside them
+  bool fixEmitters = true;   ///< turn closed emitting pieces that are wound inward with nothing
+                             ///< inside them, and lamps that face a surface at no distance
   double featureAngle = 30;  ///< degrees; normals are made within it where the file has none
 };
 
@@ -33,8 +33,7 @@ struct CleaningReport {
   int64_t normalsMade = 0;      ///< points that had none
   int64_t normalsRepaired = 0;  ///< points whose normal was zero or not finite
   // Of the cleaned scene, instances counted each.
-  int64_t invertedEmitters =
-      0;  ///< closed emitting pieces that were wound inward (once a material of theirs)
+  int64_t invertedEmitters = 0;  ///< emitting pieces that were turned (once a material of theirs)
   int64_t triangles = 0, points = 0, pieces = 0;
   std::vector<std::string> warnings;
 };

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "Common/Core/Error.h"
+#include "Scene/Core/SceneCleaning.h"
 
 namespace lambert {
 namespace {
@@ -125,6 +126,24 @@ TEST_F(SceneReaderTest, Options) {
   ExpectNear(MeshOf(scene, "lamp").reflectance[0], Spectrum(0.25f));
   ExpectNear(MeshOf(scene, "glass").reflectance[0], Spectrum(0.3f));
   EXPECT_EQ(scene.report.transparentFaces, 0);
+}
+
+TEST_F(SceneReaderTest, LampsShineThroughTheirGlass) {
+  // A lamp in a shell, a millimetre behind its glass, shines through it; where glass is opaque, the
+  // lamp faces a surface at no distance.
+  Write("m.mtl", "newmtl lamp\nKe 1 1 1\nnewmtl glass\nd .1\nnewmtl shell\nKd .5 .5 .5\n");
+  const std::string file =
+      Write("s.obj",
+            "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 .001\nv 1 0 .001\nv 0 1 .001\n"
+            "v 0 0 -.2\nv 1 0 -.2\nv 0 1 -.2\nusemtl lamp\nf 1 2 3\nusemtl glass\nf 4 5 6\n"
+            "usemtl shell\nf 7 8 9\n");
+  for (const bool opaque : {false, true}) {
+    SceneReaderOptions options;
+    options.opaqueGlass = opaque;
+    CleaningReport report;
+    AssembleScene(ReadScene({file}, options), {}, &report);
+    EXPECT_EQ(report.invertedEmitters, opaque ? 1 : 0);
+  }
 }
 
 TEST_F(SceneReaderTest, TransparencyOfMtl) {
