@@ -39,6 +39,25 @@ std::vector<uint8_t> LitSides(const TriangleMesh& mesh, const ElementCells& cell
   return lit;
 }
 
+/// Rays begin at this many times the length that they skip away from other surfaces' edges: a
+/// surface nearer than that length does not block.
+constexpr float kClearance = 8;
+
+/// The receivers, drawn into their elements at least so far (m) that their rays leak through no
+/// surface that meets theirs; at most to the centroid.
+std::vector<LightReceiver> GatherPoints(const UniformMesh& mesh, const UniformSolution& uniform,
+                                        float clearance) {
+  std::vector<LightReceiver> points(uniform.receivers.size());
+  ParallelForEach(int64_t(points.size()), 1024, [&](int64_t i) {
+    const ElementReceiver& at = uniform.receivers[size_t(i)];
+    const Vec3f inward = mesh.Centroid(at.element) - at.position;
+    const float distance = Length(inward);
+    const float share = distance > 0 ? std::min(1.f, clearance / distance) : 0;
+    points[size_t(i)] = {at.position + inward * share, at.normal, at.geometric};
+  });
+  return points;
+}
+
 ProgressCallback ShareOf(const ProgressCallback& progress, double from, double to) {
   if (!progress) return {};
   return [progress, from, to](double fraction, const char* stage) {
@@ -64,19 +83,16 @@ RadiositySolution SolveCachedRadiosity(const Scene& scene, const CachedRadiosity
   // The points, and their light.
   const UniformMesh mesh = MakeUniformMesh(scene, elementSize);
   UniformSolution uniform = MakeUniformSolution(scene, mesh, LitSides(scene.mesh, cells, cache));
-  std::vector<LightReceiver> points;
-  points.reserve(uniform.receivers.size());
-  for (const ElementReceiver& at : uniform.receivers) {
-    points.push_back({at.position, at.normal, at.geometric});
-  }
+  const std::vector<LightReceiver> points =
+      GatherPoints(mesh, uniform, kClearance * rays.Epsilon());
   CacheGatherOptions gather;
   gather.rays = options.gatherRays;
   gather.emitterRays = options.emitterRays;
   gather.nearby = elementSize;
   gather.seed = HashBits(options.seed, 0x676174686572ull);
   int64_t cast = 0;
-  std::vector<Spectrum> irradiance =
-      GatherFromCache(scene, rays, sources, cache, points, gather, &cast, ShareOf(progress, 0.3, 1));
+  std::vector<Spectrum> irradiance = GatherFromCache(scene, rays, sources, cache, points, gather,
+                                                     &cast, ShareOf(progress, 0.3, 1));
   if (statistics) {
     cache.Account(statistics);
     statistics->rays += cast;

@@ -231,16 +231,23 @@ void ElementCells::ListFragments(const std::vector<float>& areas) {
                      return areas[size_t(a)] < areas[size_t(b)];
                    }));
     float sum = 0;
-    Spectrum reflected;
+    Spectrum reflected, emitted[2];
     for (auto i = begin; i != end; ++i) {
+      const int32_t face = fragments_[size_t(*i)].face;
       const float area = areas[size_t(*i)];
       sum += area;
-      reflected += mesh_.reflectance[size_t(fragments_[size_t(*i)].face)] * area;
+      reflected += mesh_.reflectance[size_t(face)] * area;
+      for (const Side side : {kFront, kBack}) {
+        if (mesh_.Emits(face, side)) emitted[side] += mesh_.emittance[size_t(face)] * area;
+      }
       areaUpTo_[size_t(i - fragmentsOfCell_.begin())] = sum;
     }
     cellArea_[size_t(cell)] = sum;
-    cellReflectance_[size_t(cell)] =
-        sum > 0 ? reflected / sum : mesh_.reflectance[size_t(fragments_[size_t(*begin)].face)];
+    if (!(sum > 0)) return;
+    cellReflectance_[size_t(cell)] = reflected / sum;
+    for (const Side side : {kFront, kBack}) {
+      cellEmittance_[2 * size_t(cell) + size_t(side)] = emitted[side] / sum;
+    }
   });
 }
 

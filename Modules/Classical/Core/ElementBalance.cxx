@@ -1,0 +1,131 @@
+#include "Classical/Core/ElementBalance.h"
+
+#include <algorithm>
+
+#include "Classical/Core/LightsAtPoint.h"
+#include "Common/Core/Parallel.h"
+#include "Common/Core/Random.h"
+
+namespace lambert {
+
+namespace {
+
+constexpr int kEscapeRays = 32768;
+constexpr int kRaysPerLamp = 4096;
+
+/// A sum over many.
+struct PowerSum {
+  double r = 0, g = 0, b = 0;
+  void Add(const Spectrum& s, double weight) {
+    r += double(s.r) * weight, g += double(s.g) * weight, b += double(s.b) * weight;
+  }
+  Spectrum Total() const { return {float(r), float(g), float(b)}; }
+};
+
+/// What leaves the sides and meets nothing, by rays in proportion to it.
+void AddEscaping(const ElementSides& sides, const SideLight& light, const RayScene& rayScene,
+                 PowerSum* escaped) {
+  std::vector<double> leavingUpTo(size_t(sides.Count()));
+  double leaving = 0;
+  for (size_t i = 0; i < leavingUpTo.size(); ++i) {
+    leaving += double(light.radiosity[i].Mean()) * double(sides.triangles[i].area);
+    leavingUpTo[i] = leaving;
+  }
+  if (!(leaving > 0)) return;
+  std::vector<int32_t> escapedFrom(kEscapeRays, -1);
+  ParallelForEach(kEscapeRays, 256, [&](int64_t ray) {
+    Random random(HashBits(uint64_t(ray), 0x65736361u));
+    const double target = leaving * (double(ray) + random.UniformDouble()) / kEscapeRays;
+    const size_t side =
+        std::min(leavingUpTo.size() - 1,
+                 size_t(std::upper_bound(leavingUpTo.begin(), leavingUpTo.end(), target) -
+                        leavingUpTo.begin()));
+    const ExchangeTriangle& triangle = sides.triangles[side];
+    const Vec2f b = UniformTriangle(random.Uniform(), random.Uniform());
+    const Vec3f& p = triangle.corners[0];
+    const Vec3f x = p + (triangle.corners[1] - p) * b.x + (triangle.corners[2] - p) * b.y;
+    Vec3f u, v;
+    CoordinateSystem(triangle.normal, &u, &v);
+    const Vec3f d = CosineHemisphere(random.Uniform(), random.Uniform());
+    const Vec3f direction = u * d.x + v * d.y + triangle.normal * d.z;
+    if (!rayScene.OccludedDirection(x, direction)) escapedFrom[size_t(ray)] = int32_t(side);
+  });
+  for (const int32_t side : escapedFrom) {
+    if (side < 0) continue;
+    const Spectrum& radiosity = light.radiosity[size_t(side)];
+    escaped->Add(radiosity, leaving / kEscapeRays / double(radiosity.Mean()));
+  }
+}
+
+/// All light of a point or spot light, and the part that meets nothing, over directions of equal
+/// solid angle.
+void AddLamp(const Light& lamp, const RayScene& rayScene, PowerSum* emitted, PowerSum* escaped) {
+  const double solidAngle = 4 * kPi / kRaysPerLamp;
+  Random random(7);
+  for (int i = 0; i < kRaysPerLamp; ++i) {
+    const float z = 1 - 2 * (float(i) + random.Uniform()) / kRaysPerLamp;
+    const float phi = float(2 * kPi) * random.Uniform(), s = std::sqrt(std::max(0.f, 1 - z * z));
+    const Vec3f direction(s * std::cos(phi), s * std::sin(phi), z);
+    const float factor = lamp.ConeFactor(direction);
+    if (factor <= 0) continue;
+    emitted->Add(lamp.intensity, double(factor) * solidAngle);
+    if (rayScene.OccludedDirection(lamp.position, direction)) continue;
+    escaped->Add(lamp.intensity, double(factor) * solidAngle);
+  }
+}
+
+}  // namespace
+
+void SideLight::GatherLights(const Scene& scene, const ElementSides& sides,
+                             const RayScene& rayScene, int skyRays, int64_t* rays) {
+  std::vector<Light> lamps, far;
+  for (const Light& light : scene.lights) {
+    const bool isFar = light.type == LightType::Sky || light.type == LightType::Directional;
+    (isFar ? far : lamps).push_back(light);
+  }
+  if (lamps.empty() && far.empty()) return;
+  std::vector<int64_t> cast(size_t(sides.Count()), 0);
+  const int skyRaysPerPlace = (skyRays + kPlacesPerElement - 1) / kPlacesPerElement;
+  ParallelForEach(sides.Count(), 16, [&](int64_t i) {
+    const ExchangeTriangle& triangle = sides.triangles[size_t(i)];
+    const Vec3f& n = triangle.normal;
+    for (int place = 0; place < kPlacesPerElement; ++place) {
+      const Vec3f x = PlaceOnElement(triangle, place);
+      const uint64_t seed = HashBits(uint64_t(i), uint64_t(place));
+      const float share = 1.f / kPlacesPerElement;
+      fromLamps[size_t(i)] +=
+          IrradianceFromLights(lamps, rayScene, x, n, n, 0, seed, &cast[size_t(i)]) * share;
+      fromFar[size_t(i)] +=
+          IrradianceFromLights(far, rayScene, x, n, n, skyRaysPerPlace, seed, &cast[size_t(i)]) *
+          share;
+    }
+  });
+  for (const int64_t count : cast) *rays += count;
+}
+
+std::vector<Spectrum> SideLight::IrradianceByKey(const ElementSides& sides, int64_t keys) const {
+  std::vector<Spectrum> byKey(static_cast<size_t>(keys));
+  for (size_t i = 0; i < irradiance.size(); ++i) byKey[size_t(sides.key[i])] = irradiance[i];
+  return byKey;
+}
+
+void MeasureElementBalance(const Scene& scene, const ElementSides& sides, const SideLight& light,
+                           const RayScene& rayScene, SolverStatistics* statistics) {
+  PowerSum emitted, absorbed, escaped;
+  for (size_t i = 0; i < sides.triangles.size(); ++i) {
+    const double area = double(sides.triangles[i].area);
+    const Spectrum& arriving = light.irradiance[i];
+    emitted.Add(sides.emittance[i] + light.fromFar[i], area);
+    absorbed.Add(arriving - sides.reflectance[i] * arriving, area);
+  }
+  AddEscaping(sides, light, rayScene, &escaped);
+  for (const Light& lamp : scene.lights) {
+    if (lamp.type != LightType::Point && lamp.type != LightType::Spot) continue;
+    AddLamp(lamp, rayScene, &emitted, &escaped);
+  }
+  statistics->emitted = emitted.Total();
+  statistics->absorbed = absorbed.Total();
+  statistics->escaped = escaped.Total();
+}
+
+}  // namespace lambert

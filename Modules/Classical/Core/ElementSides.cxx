@@ -1,0 +1,60 @@
+#include "Classical/Core/ElementSides.h"
+
+#include <algorithm>
+
+namespace lambert {
+
+namespace {
+constexpr int kGroupSize = 32;
+/// A face of as many elements begins a group of its own, so that groups are flat where they can be.
+constexpr int64_t kOwnGroup = 12;
+}  // namespace
+
+ElementSides CollectElementSides(const Scene& scene, const UniformMesh& mesh,
+                                 const std::vector<uint8_t>& litSides) {
+  ElementSides sides;
+  const int64_t elements = mesh.ElementCount();
+  for (int64_t begin = 0, end = 0; begin < elements; begin = end) {
+    // The elements of one face: all of its front, then all of its back.
+    const size_t face = size_t(mesh.face[size_t(begin)]);
+    while (end < elements && size_t(mesh.face[size_t(end)]) == face) ++end;
+    for (const Side side : {kFront, kBack}) {
+      if (!(litSides[face] & (1 << side))) continue;
+      const bool emits = scene.mesh.Emits(int64_t(face), side);
+      for (int64_t element = begin; element < end; ++element) {
+        const int second = side == kFront ? 1 : 2;
+        const ExchangeTriangle triangle(mesh.Corner(element, 0), mesh.Corner(element, second),
+                                        mesh.Corner(element, 3 - second));
+        if (!(triangle.area > 0)) continue;
+        const int32_t index = int32_t(sides.Count());
+        const bool isFull =
+            !sides.groupBegin.empty() && index - sides.groupBegin.back() >= kGroupSize;
+        const bool isOwn = element == begin && end - begin >= kOwnGroup;
+        if (sides.groupBegin.empty() || isFull || isOwn) sides.groupBegin.push_back(index);
+        sides.triangles.push_back(triangle);
+        sides.key.push_back(int32_t(2 * element + side));
+        sides.reflectance.push_back(scene.mesh.reflectance[face]);
+        sides.emittance.push_back(emits ? scene.mesh.emittance[face] : Spectrum());
+      }
+    }
+  }
+  if (!sides.groupBegin.empty()) sides.groupBegin.push_back(int32_t(sides.Count()));
+  return sides;
+}
+
+std::vector<std::vector<Vec3f>> ElementSides::GroupPoints(const UniformMesh& mesh) const {
+  std::vector<std::vector<Vec3f>> points(groupBegin.empty() ? 0 : groupBegin.size() - 1);
+  for (size_t group = 0; group < points.size(); ++group) {
+    std::vector<int32_t> vertices;
+    for (int32_t i = groupBegin[group]; i < groupBegin[group + 1]; ++i) {
+      const auto& triangle = mesh.triangles[size_t(key[size_t(i)] / 2)];
+      vertices.insert(vertices.end(), triangle.begin(), triangle.end());
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    for (const int32_t vertex : vertices) points[group].push_back(mesh.positions[size_t(vertex)]);
+  }
+  return points;
+}
+
+}  // namespace lambert

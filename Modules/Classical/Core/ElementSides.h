@@ -1,0 +1,38 @@
+// The sides of elements that exchange light.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "Classical/Core/ExchangeArea.h"
+#include "Classical/Core/UniformMesh.h"
+
+namespace lambert {
+
+/// The modelled sides of all elements that have an area, in the order of the elements.
+struct ElementSides {
+  std::vector<ExchangeTriangle> triangles;
+  std::vector<int32_t> key;  ///< 2 element + side
+  std::vector<Spectrum> reflectance;
+  std::vector<Spectrum> emittance;  ///< W/m2
+  /// Groups of neighbours, at most 32: first side of each; one more at the end.
+  std::vector<int32_t> groupBegin;
+
+  int64_t Count() const { return int64_t(triangles.size()); }
+  int64_t GroupCount() const { return std::max<int64_t>(1, int64_t(groupBegin.size())) - 1; }
+  /// The corners of every group, each once.
+  std::vector<std::vector<Vec3f>> GroupPoints(const UniformMesh& mesh) const;
+};
+
+/// `litSides`: per face of the scene, bit 1 front, bit 2 back.
+ElementSides CollectElementSides(const Scene& scene, const UniformMesh& mesh,
+                                 const std::vector<uint8_t>& litSides);
+
+/// Places from which an element looks: its centroid and midway from there to each corner.
+constexpr int kPlacesPerElement = 4;
+inline Vec3f PlaceOnElement(const ExchangeTriangle& triangle, int place) {
+  return place == 0 ? triangle.centroid
+                    : (triangle.centroid + triangle.corners[size_t(place - 1)]) * 0.5f;
+}
+
+}  // namespace lambert
