@@ -42,9 +42,11 @@ std::vector<uint8_t> LitSides(const TriangleMesh& mesh, const ElementCells& cell
 /// Rays begin at this many times the length that they skip away from other surfaces' edges: a
 /// surface nearer than that length does not block.
 constexpr float kClearance = 8;
+/// Nor further than this part of the way, so that small elements keep light apart.
+constexpr float kMostInward = 0.1f;
 
 /// The receivers, drawn into their elements at least so far (m) that their rays leak through no
-/// surface that meets theirs; at most to the centroid.
+/// surface that meets theirs.
 std::vector<LightReceiver> GatherPoints(const UniformMesh& mesh, const UniformSolution& uniform,
                                         float clearance) {
   std::vector<LightReceiver> points(uniform.receivers.size());
@@ -52,7 +54,7 @@ std::vector<LightReceiver> GatherPoints(const UniformMesh& mesh, const UniformSo
     const ElementReceiver& at = uniform.receivers[size_t(i)];
     const Vec3f inward = mesh.Centroid(at.element) - at.position;
     const float distance = Length(inward);
-    const float share = distance > 0 ? std::min(1.f, clearance / distance) : 0;
+    const float share = distance > 0 ? std::min(kMostInward, clearance / distance) : 0;
     points[size_t(i)] = {at.position + inward * share, at.normal, at.geometric};
   });
   return points;
