@@ -3,9 +3,11 @@
 
 #include "BenchArguments.h"
 #include "BenchMethods.h"
+#include "BenchReport.h"
 #include "BenchStudies.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
+#include "Display/vtkRadiosityImageWriter.h"
 
 namespace lambert {
 namespace {
@@ -15,8 +17,8 @@ std::string InFolder(const std::string& folder, const std::string& name) {
 }
 
 /// All studies that were asked for, one scene after the other.
-void Measure(const BenchArguments& arguments) {
-  BenchTableWriter table(InFolder(arguments.output, "Measurements.csv"));
+void Measure(const BenchArguments& arguments, const std::string& tableName) {
+  BenchTableWriter table(tableName);
   if (arguments.Has("sweep") || arguments.Has("convergence")) {
     for (const std::string& file : arguments.scene.files) {
       const BenchScene scene = LoadBenchScene(file, arguments.scene, arguments.vertices);
@@ -36,9 +38,19 @@ int Bench(const BenchArguments& arguments) {
   std::error_code failed;
   std::filesystem::create_directories(arguments.output, failed);
   if (failed) throw Error("The folder " + arguments.output + " cannot be made.");
+  if (!arguments.noCharts && !vtkRadiosityImageWriter::IsDisplayAvailable()) {
+    throw Error(
+        "Drawing charts needs an X display and none answers: run under xvfb-run, or give "
+        "--no-charts.");
+  }
   SetThreadCount(arguments.threads);
 
-  if (!arguments.redraw) Measure(arguments);
+  // Measure, then read the table back: what is drawn is what is written.
+  const std::string table = InFolder(arguments.output, "Measurements.csv");
+  if (!arguments.redraw) Measure(arguments, table);
+  const std::vector<BenchRow> rows = ReadBenchTable(table);
+  WriteBenchTables(rows, arguments.output);
+  if (!arguments.noCharts) DrawBenchCharts(rows, arguments.output);
   return 0;
 }
 

@@ -118,7 +118,6 @@ BenchTableWriter::BenchTableWriter(const std::string& fileName) : fileName_(file
 }
 
 void BenchTableWriter::Append(const BenchRow& row) {
-  rows_.push_back(row);
   std::string line;
   for (const Column& column : Columns()) {
     if (&column != &Columns().front()) line += ',';

@@ -54,12 +54,10 @@ class BenchTableWriter {
  public:
   explicit BenchTableWriter(const std::string& fileName);
   void Append(const BenchRow& row);
-  const std::vector<BenchRow>& Rows() const { return rows_; }
 
  private:
   void Write(const std::string& line);
   std::string fileName_;
-  std::vector<BenchRow> rows_;
 };
 
 /// The rows of a file; columns of other names are passed over. Throws Error, naming the line.
