@@ -44,6 +44,8 @@ std::vector<uint8_t> LitSides(const TriangleMesh& mesh, const ElementCells& cell
 constexpr float kClearance = 8;
 /// Nor further than this part of the way, so that small elements keep light apart.
 constexpr float kMostInward = 0.1f;
+/// Hits nearer than this part of an element are followed further: a cell is too coarse for them.
+constexpr double kNearby = 0.25;
 
 /// The receivers, drawn into their elements at least so far (m) that their rays leak through no
 /// surface that meets theirs.
@@ -90,7 +92,7 @@ RadiositySolution SolveCachedRadiosity(const Scene& scene, const CachedRadiosity
   CacheGatherOptions gather;
   gather.rays = options.gatherRays;
   gather.emitterRays = options.emitterRays;
-  gather.nearby = elementSize;
+  gather.nearby = kNearby * elementSize;
   gather.seed = HashBits(options.seed, 0x676174686572ull);
   int64_t cast = 0;
   std::vector<Spectrum> irradiance = GatherFromCache(scene, rays, sources, cache, points, gather,

@@ -90,7 +90,7 @@ void SideLight::GatherLights(const Scene& scene, const ElementSides& sides,
     const ExchangeTriangle& triangle = sides.triangles[size_t(i)];
     const Vec3f& n = triangle.normal;
     for (int place = 0; place < kPlacesPerElement; ++place) {
-      const Vec3f x = PlaceOnElement(triangle, place);
+      const Vec3f x = triangle.Place(place);
       const uint64_t seed = HashBits(uint64_t(i), uint64_t(place));
       const float share = 1.f / kPlacesPerElement;
       fromLamps[size_t(i)] +=

@@ -5,9 +5,9 @@
 namespace lambert {
 
 namespace {
-constexpr int kGroupSize = 32;
+constexpr int kGroupSize = 8;
 /// A face of as many elements begins a group of its own, so that groups are flat where they can be.
-constexpr int64_t kOwnGroup = 12;
+constexpr int64_t kOwnGroup = 4;
 }  // namespace
 
 ElementSides CollectElementSides(const Scene& scene, const UniformMesh& mesh,

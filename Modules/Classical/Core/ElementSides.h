@@ -28,11 +28,4 @@ struct ElementSides {
 ElementSides CollectElementSides(const Scene& scene, const UniformMesh& mesh,
                                  const std::vector<uint8_t>& litSides);
 
-/// Places from which an element looks: its centroid and midway from there to each corner.
-constexpr int kPlacesPerElement = 4;
-inline Vec3f PlaceOnElement(const ExchangeTriangle& triangle, int place) {
-  return place == 0 ? triangle.centroid
-                    : (triangle.centroid + triangle.corners[size_t(place - 1)]) * 0.5f;
-}
-
 }  // namespace lambert

@@ -14,10 +14,18 @@ struct ExchangeTriangle {
   Vec3f normal;      ///< unit; zero for a triangle without area, which exchanges nothing
   float area = 0;    ///< m2
   float radius = 0;  ///< of a sphere about the centroid that holds the corners, m
+  /// Midway between the centroid and each corner, and the centroid: coordinates of four places.
+  std::array<std::array<float, 4>, 3> places{};
 
   ExchangeTriangle() = default;
   ExchangeTriangle(const Vec3f& a, const Vec3f& b, const Vec3f& c);
+  Vec3f Place(int place) const {
+    return {places[0][size_t(place)], places[1][size_t(place)], places[2][size_t(place)]};
+  }
 };
+
+/// Places on a triangle.
+constexpr int kPlacesPerElement = 4;
 
 /// True where some part of each lies above the other's plane: light may pass.
 bool CanExchange(const ExchangeTriangle& a, const ExchangeTriangle& b);

@@ -21,55 +21,72 @@ constexpr int64_t kGroupsPerReport = 16;
 /// Two sides that may exchange light.
 struct Pair {
   int32_t row, column;
-  float area;       ///< exchange area with nothing in the way, m2
-  int32_t segment;  ///< its first segment
+  float area;       ///< exchange area, m2; before that is known, the visible part
+  int32_t segment;  ///< first of its segments
 };
 
-/// All pairs of two groups, with the segments that ask for their visibility.
+/// All pairs of two groups.
 class GroupPair {
  public:
-  GroupPair(const ElementSides& sides, int visibilityRays)
-      : sides_(sides), visibilityRays_(visibilityRays) {}
+  GroupPair(const ElementSides& sides, const ShaftBlockers& shafts, const RayScene& rayScene,
+            int visibilityRays)
+      : sides_(sides), shafts_(shafts), rayScene_(rayScene), visibilityRays_(visibilityRays) {}
 
-  void Collect(int32_t rowGroup, int32_t columnGroup) {
+  /// The exchange areas of all pairs that see each other.
+  const std::vector<Pair>& Exchange(int32_t rowGroup, int32_t columnGroup) {
+    CollectFacing(rowGroup, columnGroup);
+    if (pairs_.empty()) return pairs_;
+    const ShaftBlockers::Faces faces = shafts_.Between(rowGroup, columnGroup);
+    if (!faces.IsOpen()) Shadow(faces);
+    for (Pair& pair : pairs_) {
+      if (!(pair.area > 0)) continue;
+      pair.area *= float(
+          ExchangeArea(sides_.triangles[size_t(pair.row)], sides_.triangles[size_t(pair.column)]));
+    }
+    return pairs_;
+  }
+  int64_t Rays() const { return rays_; }
+
+ private:
+  void CollectFacing(int32_t rowGroup, int32_t columnGroup) {
     pairs_.clear();
-    segments_.clear();
     const int32_t rowEnd = sides_.groupBegin[size_t(rowGroup) + 1];
     const int32_t columnBegin = sides_.groupBegin[size_t(columnGroup)];
     const int32_t columnEnd = sides_.groupBegin[size_t(columnGroup) + 1];
     for (int32_t i = sides_.groupBegin[size_t(rowGroup)]; i < rowEnd; ++i) {
       const ExchangeTriangle& a = sides_.triangles[size_t(i)];
       for (int32_t j = std::max(i + 1, columnBegin); j < columnEnd; ++j) {
-        const ExchangeTriangle& b = sides_.triangles[size_t(j)];
-        if (!CanExchange(a, b)) continue;
-        const float area = float(ExchangeArea(a, b));
-        if (area > 0) pairs_.push_back({i, j, area, 0});
+        if (CanExchange(a, sides_.triangles[size_t(j)])) pairs_.push_back({i, j, 1, 0});
       }
     }
   }
 
-  /// Casts the rays of all pairs and takes the visible part of each.
-  int64_t Shadow(const RayScene& rayScene) {
+  /// Casts the rays of all pairs in one batch and takes the visible part of each.
+  void Shadow(const ShaftBlockers::Faces& faces) {
+    segments_.clear();
     for (Pair& pair : pairs_) {
       pair.segment = int32_t(segments_.size());
       AddSegments(pair);
     }
     occluded_.resize(segments_.size());
-    rayScene.Occluded(segments_.data(), int(segments_.size()), occluded_.data());
-    for (size_t p = 0; p < pairs_.size(); ++p) {
-      const size_t begin = size_t(pairs_[p].segment);
-      const size_t end = p + 1 < pairs_.size() ? size_t(pairs_[p + 1].segment) : segments_.size();
-      if (begin == end) continue;  // no place sees another: a sliver of light, left as it is
-      const auto hidden = std::count(occluded_.begin() + int64_t(begin),
-                                     occluded_.begin() + int64_t(end), uint8_t(1));
-      pairs_[p].area *= 1 - float(hidden) / float(end - begin);
+    if (faces.IsCrowd()) {
+      rayScene_.Occluded(segments_.data(), int(segments_.size()), occluded_.data());
+    } else {
+      for (size_t s = 0; s < segments_.size(); ++s) {
+        occluded_[s] = shafts_.IsBlocked(faces, segments_[s]) ? 1 : 0;
+      }
     }
-    return int64_t(segments_.size());
+    rays_ += int64_t(segments_.size());
+    for (size_t p = 0; p < pairs_.size(); ++p) {
+      const int32_t begin = pairs_[p].segment;
+      const int32_t end = p + 1 < pairs_.size() ? pairs_[p + 1].segment : int32_t(segments_.size());
+      if (begin == end) continue;  // no place sees another: a sliver of light, left as it is
+      const auto hidden =
+          std::count(occluded_.begin() + begin, occluded_.begin() + end, uint8_t(1));
+      pairs_[p].area = 1 - float(hidden) / float(end - begin);
+    }
   }
 
-  const std::vector<Pair>& Pairs() const { return pairs_; }
-
- private:
   /// Between places that face each other, in an order that differs from pair to pair, so that no
   /// pattern shows.
   void AddSegments(const Pair& pair) {
@@ -82,9 +99,8 @@ class GroupPair {
         int(HashBits(uint64_t(pair.row), uint64_t(pair.column)) % uint64_t(kPlacesPerElement));
     for (int k = 0; k < kPlacePairs && wanted > 0; ++k) {
       const int place = k % kPlacesPerElement;
-      const Vec3f from = PlaceOnElement(a, place);
-      const Vec3f to =
-          PlaceOnElement(b, (place + k / kPlacesPerElement + turn) % kPlacesPerElement);
+      const Vec3f from = a.Place(place);
+      const Vec3f to = b.Place((place + k / kPlacesPerElement + turn) % kPlacesPerElement);
       const Vec3f direction = to - from;
       if (Dot(direction, a.normal) <= 0 || Dot(direction, b.normal) >= 0) continue;
       segments_.push_back({from, to});
@@ -93,10 +109,13 @@ class GroupPair {
   }
 
   const ElementSides& sides_;
+  const ShaftBlockers& shafts_;
+  const RayScene& rayScene_;
   const int visibilityRays_;
   std::vector<Pair> pairs_;
   std::vector<Segment> segments_;
   std::vector<uint8_t> occluded_;
+  int64_t rays_ = 0;
 };
 
 Eigen::Array4f Lanes(const Spectrum& s) { return {s.r, s.g, s.b, 0}; }
@@ -121,7 +140,7 @@ struct ExchangeMatrix::Storage {
 ExchangeMatrix::~ExchangeMatrix() = default;
 int64_t ExchangeMatrix::PairCount() const { return storage_->upper.nonZeros(); }
 
-ExchangeMatrix::ExchangeMatrix(const ElementSides& sides, const OpenShafts& shafts,
+ExchangeMatrix::ExchangeMatrix(const ElementSides& sides, const ShaftBlockers& shafts,
                                const RayScene& rayScene, const ExchangeMatrixOptions& options,
                                const ProgressCallback& progress)
     : sides_(sides), storage_(new Storage) {
@@ -157,7 +176,7 @@ void ExchangeMatrix::CheckMemory(const RayScene& rayScene,
   if (bytes > double(options.memoryLimit)) Refuse(bytes, options);
 }
 
-ExchangeMatrix::Rows ExchangeMatrix::AssembleRows(const OpenShafts& shafts,
+ExchangeMatrix::Rows ExchangeMatrix::AssembleRows(const ShaftBlockers& shafts,
                                                   const RayScene& rayScene,
                                                   const ExchangeMatrixOptions& options,
                                                   const ProgressCallback& progress) {
@@ -170,19 +189,15 @@ ExchangeMatrix::Rows ExchangeMatrix::AssembleRows(const OpenShafts& shafts,
     const int64_t end = std::min(groups, begin + kGroupsPerReport);
     ParallelForEach(end - begin, 1, [&](int64_t offset) {
       const int64_t rowGroup = begin + offset;
-      GroupPair pairs(sides_, options.visibilityRays);
+      GroupPair pairs(sides_, shafts, rayScene, options.visibilityRays);
       for (int64_t group = rowGroup; group < groups; ++group) {
-        pairs.Collect(int32_t(rowGroup), int32_t(group));
-        if (pairs.Pairs().empty()) continue;
-        if (!shafts.IsOpen(int32_t(rowGroup), int32_t(group))) {
-          rays[size_t(rowGroup)] += pairs.Shadow(rayScene);
-        }
-        for (const Pair& pair : pairs.Pairs()) {
+        for (const Pair& pair : pairs.Exchange(int32_t(rowGroup), int32_t(group))) {
           if (!(pair.area > 0)) continue;
           rows[size_t(pair.row)].push_back({pair.column, pair.area});
           ++entries[size_t(rowGroup)];
         }
       }
+      rays[size_t(rowGroup)] = pairs.Rays();
     });
 
     // Does it still fit?

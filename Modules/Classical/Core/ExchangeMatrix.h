@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "Classical/Core/ElementSides.h"
-#include "Classical/Core/OpenShafts.h"
+#include "Classical/Core/ShaftBlockers.h"
 #include "Common/Core/Progress.h"
 #include "Visibility/Core/RayScene.h"
 
@@ -25,7 +25,7 @@ class ExchangeMatrix {
   /// 0 <= F <= the unoccluded F. A row whose form factors sum to more than 1 is scaled down to 1,
   /// its column with it. Throws Error, naming elements and bytes, where the matrix would not fit in
   /// the limit; Cancelled.
-  ExchangeMatrix(const ElementSides& sides, const OpenShafts& shafts, const RayScene& rayScene,
+  ExchangeMatrix(const ElementSides& sides, const ShaftBlockers& shafts, const RayScene& rayScene,
                  const ExchangeMatrixOptions& options = {}, const ProgressCallback& progress = {});
   ~ExchangeMatrix();
 
@@ -53,7 +53,7 @@ class ExchangeMatrix {
 
   void CheckMemory(const RayScene& rayScene, const ExchangeMatrixOptions& options) const;
   void Refuse(double bytes, const ExchangeMatrixOptions& options) const;
-  Rows AssembleRows(const OpenShafts& shafts, const RayScene& rayScene,
+  Rows AssembleRows(const ShaftBlockers& shafts, const RayScene& rayScene,
                     const ExchangeMatrixOptions& options, const ProgressCallback& progress);
   void Store(Rows rows);
   void BoundRows();

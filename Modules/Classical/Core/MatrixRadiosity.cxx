@@ -64,7 +64,7 @@ RadiositySolution SolveMatrixRadiosity(const Scene& scene, const MatrixRadiosity
   ExchangeMatrixOptions matrixOptions;
   matrixOptions.visibilityRays = options.visibilityRays;
   matrixOptions.memoryLimit = options.memoryLimit;
-  const OpenShafts shafts(scene.mesh, rayScene.Epsilon(), sides.GroupPoints(mesh));
+  const ShaftBlockers shafts(scene.mesh, rayScene.Epsilon(), sides.GroupPoints(mesh));
   const ExchangeMatrix matrix(
       sides, shafts, rayScene, matrixOptions,
       [&](double fraction, const char* stage) { return Report(progress, 0.9 * fraction, stage); });

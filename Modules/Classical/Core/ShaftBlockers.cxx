@@ -1,4 +1,4 @@
-#include "Classical/Core/OpenShafts.h"
+#include "Classical/Core/ShaftBlockers.h"
 
 #include <cstring>
 
@@ -58,36 +58,54 @@ std::vector<Plane> ShaftPlanes(const Box3f& a, const Box3f& b) {
 
 }  // namespace
 
-OpenShafts::OpenShafts(const TriangleMesh& mesh, float tolerance,
-                       const std::vector<std::vector<Vec3f>>& groups)
-    : mesh_(mesh), rowLength_((mesh.triangles.size() + 7) / 8 * 8) {
+ShaftBlockers::ShaftBlockers(const TriangleMesh& mesh, float tolerance,
+                             const std::vector<std::vector<Vec3f>>& groups)
+    : mesh_(mesh),
+      tolerance_(tolerance),
+      blockers_(mesh.triangles.size()),
+      rowLength_((mesh.triangles.size() + 7) / 8 * 8) {
+  for (size_t face = 0; face < blockers_.size(); ++face) {
+    blockers_[face] = MakeBlocker(int64_t(face));
+  }
   if (rowLength_ * groups.size() > kMaximumTable) return;
   bounds_.resize(groups.size());
   sides_.assign(rowLength_ * groups.size(), uint8_t(kAbove | kBelow));
-  ParallelForEach(int64_t(groups.size()), 1, [&](int64_t group) {
+  ParallelForEach(int64_t(groups.size()), 16, [&](int64_t group) {
     for (const Vec3f& p : groups[size_t(group)]) bounds_[size_t(group)].Include(p);
-    ClassifyFaces(groups[size_t(group)], tolerance, &sides_[rowLength_ * size_t(group)]);
+    ClassifyFaces(groups[size_t(group)], &sides_[rowLength_ * size_t(group)]);
   });
 }
 
-void OpenShafts::ClassifyFaces(const std::vector<Vec3f>& points, float tolerance,
-                               uint8_t* sides) const {
+ShaftBlockers::Blocker ShaftBlockers::MakeBlocker(int64_t face) const {
+  // In double: a sliver's maps are steep.
+  Blocker blocker;
+  const Vec3d p(mesh_.Corner(face, 0)), u = Vec3d(mesh_.Corner(face, 1)) - p;
+  const Vec3d v = Vec3d(mesh_.Corner(face, 2)) - p, normal = Cross(u, v);
+  const double squared = LengthSquared(normal);
+  if (!(squared > 0)) return blocker;
+  const Vec3d unit = normal / std::sqrt(squared);
+  const Vec3d toU = Cross(v, normal) / squared, toV = Cross(normal, u) / squared;
+  blocker.normal = Vec3f(unit), blocker.offset = float(Dot(unit, p));
+  blocker.toU = Vec3f(toU), blocker.u0 = float(-Dot(toU, p));
+  blocker.toV = Vec3f(toV), blocker.v0 = float(-Dot(toV, p));
+  return blocker;
+}
+
+void ShaftBlockers::ClassifyFaces(const std::vector<Vec3f>& points, uint8_t* sides) const {
   for (size_t face = 0; face < mesh_.triangles.size(); ++face) {
-    // A face without area blocks nothing.
-    const Vec3f normal = mesh_.FrontNormal(int64_t(face));
-    if (normal == Vec3f()) continue;
-    const Vec3f& origin = mesh_.Corner(int64_t(face), 0);
+    const Blocker& blocker = blockers_[face];
+    if (blocker.normal == Vec3f()) continue;  // a face without area blocks nothing
     float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
     for (const Vec3f& p : points) {
-      const float height = Dot(p - origin, normal);
+      const float height = Dot(p, blocker.normal) - blocker.offset;
       low = std::min(low, height);
       high = std::max(high, height);
     }
-    sides[face] = uint8_t((low >= -tolerance ? kAbove : 0) | (high <= tolerance ? kBelow : 0));
+    sides[face] = uint8_t((low >= -tolerance_ ? kAbove : 0) | (high <= tolerance_ ? kBelow : 0));
   }
 }
 
-bool OpenShafts::MayBlock(size_t face, const std::vector<Plane>& planes) const {
+bool ShaftBlockers::MayBlock(size_t face, const std::vector<Plane>& planes) const {
   for (const Plane& plane : planes) {
     bool isOutside = true;
     for (int corner = 0; corner < 3 && isOutside; ++corner) {
@@ -99,8 +117,12 @@ bool OpenShafts::MayBlock(size_t face, const std::vector<Plane>& planes) const {
   return true;
 }
 
-bool OpenShafts::IsOpen(int32_t a, int32_t b) const {
-  if (sides_.empty()) return false;
+ShaftBlockers::Faces ShaftBlockers::Between(int32_t a, int32_t b) const {
+  Faces faces;
+  if (sides_.empty()) {
+    faces.count = kCrowd + 1;
+    return faces;
+  }
   const uint8_t* first = &sides_[rowLength_ * size_t(a)];
   const uint8_t* second = &sides_[rowLength_ * size_t(b)];
   std::vector<Plane> planes;
@@ -115,10 +137,29 @@ bool OpenShafts::IsOpen(int32_t a, int32_t b) const {
     for (size_t face = begin; face < begin + 8; ++face) {
       if (first[face] & second[face]) continue;
       if (planes.empty()) planes = ShaftPlanes(bounds_[size_t(a)], bounds_[size_t(b)]);
-      if (MayBlock(face, planes)) return false;
+      if (!MayBlock(face, planes)) continue;
+      faces.face[size_t(faces.count++)] = int32_t(face);
+      if (faces.IsCrowd()) return faces;
     }
   }
-  return true;
+  return faces;
+}
+
+bool ShaftBlockers::IsBlocked(const Faces& faces, const Segment& segment) const {
+  constexpr float kBorder = 1e-6f;  // neighbours overlap by rounding rather than let light through
+  const Vec3f step = segment.to - segment.from;
+  const float length = Length(step);
+  for (int k = 0; k < faces.count; ++k) {
+    const Blocker& blocker = blockers_[size_t(faces.face[size_t(k)])];
+    const float from = Dot(segment.from, blocker.normal) - blocker.offset;
+    const float fall = -Dot(step, blocker.normal);
+    const float t = from / fall;  // not finite along the plane: no comparison below is true
+    if (!(t * length > tolerance_ && (1 - t) * length > tolerance_)) continue;
+    const Vec3f x = segment.from + step * t;
+    const float u = Dot(x, blocker.toU) + blocker.u0, v = Dot(x, blocker.toV) + blocker.v0;
+    if (u >= -kBorder && v >= -kBorder && u + v <= 1 + kBorder) return true;
+  }
+  return false;
 }
 
 }  // namespace lambert
