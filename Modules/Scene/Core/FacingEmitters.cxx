@@ -22,6 +22,9 @@ using TriangleTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, TrianglePrimitive
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// Points from which a lamp looks ahead and behind, and the least of them on each of its faces.
+constexpr double kPoints = 32, kPointsOfFace = 4;
+
 /// What counts as no distance, m.
 struct Gaps {
   double plane;           ///< up to here: in the lamp's own plane
@@ -38,9 +41,11 @@ Gaps GapsOf(const Box3f& bounds) {
   return {1e-6 * extreme, 1e-5 * diagonal, 1e-3 * diagonal};
 }
 
+/// Faces too small or too large for their area to be a number are left alone.
 bool EmitsFromOneSide(const TriangleMesh& mesh, int64_t face) {
-  return mesh.Emits(face, kFront) != mesh.Emits(face, kBack) &&
-         !mesh.emittance[size_t(face)].IsBlack() &&
+  if (mesh.Emits(face, kFront) == mesh.Emits(face, kBack)) return false;
+  const double area = mesh.Area(face);
+  return !mesh.emittance[size_t(face)].IsBlack() && area > 0 && area < kInfinity &&
          !HasNoArea(mesh.Corner(face, 0), mesh.Corner(face, 1), mesh.Corner(face, 2));
 }
 
@@ -52,7 +57,6 @@ Vec3d EmissionNormal(const TriangleMesh& mesh, int64_t face) {
 
 /// Connected faces of one material that emit from one side each.
 struct Lamp {
-  std::vector<int64_t> faces[2];  ///< that emit to the piece's outside as it is wound, and inside
   double area = 0, perimeter = 0;
 
   /// Between two plates at a distance h that is small for them, h perimeter / (2 area) of the light
@@ -62,6 +66,13 @@ struct Lamp {
     const double rim = std::max(perimeter, 2 * std::sqrt(kPi * area));
     return std::clamp(0.1 * area / rim, gaps.least, gaps.largest);
   }
+};
+
+/// The faces of a lamp that emit to the outside of the piece as it is wound, or those to the
+/// inside.
+struct LampSide {
+  int32_t lamp;
+  std::vector<int64_t> faces;
 };
 
 class Lamps {
@@ -78,7 +89,9 @@ class Lamps {
     }
   }
 
-  const std::vector<Lamp>& All() const { return lamps_; }
+  int64_t Count() const { return int64_t(lamps_.size()); }
+  const Lamp& operator[](int32_t lamp) const { return lamps_[size_t(lamp)]; }
+  const std::vector<LampSide>& Sides() const { return sides_; }
   /// -1 for a face of none.
   int32_t LampOf(int64_t face) const { return lampOf_[size_t(face)]; }
 
@@ -86,12 +99,13 @@ class Lamps {
   void WalkLamp(const CleanedMesh& object, int64_t faceBegin, int64_t pointBegin, int64_t seed) {
     const int32_t id = int32_t(lamps_.size());
     Lamp& lamp = lamps_.emplace_back();
+    LampSide sides[2]{{id, {}}, {id, {}}};
     std::vector<int64_t> walk{seed};
     lampOf_[size_t(seed)] = id;
     for (size_t i = 0; i < walk.size(); ++i) {
       const int64_t face = walk[i], inMesh = face - faceBegin;
       const bool against = object.topology.against[size_t(inMesh)];
-      lamp.faces[mesh_.Emits(face, kFront) == against].push_back(face);
+      sides[mesh_.Emits(face, kFront) == against].faces.push_back(face);
       lamp.area += mesh_.Area(face);
       for (int corner = 0; corner < 3; ++corner) {
         const int32_t across = object.topology.neighbor[size_t(3 * inMesh + corner)];
@@ -104,6 +118,9 @@ class Lamps {
           lamp.perimeter += EdgeLength(object.mesh, inMesh, corner, pointBegin);
         }
       }
+    }
+    for (LampSide& side : sides) {
+      if (!side.faces.empty()) sides_.push_back(std::move(side));
     }
   }
 
@@ -123,6 +140,7 @@ class Lamps {
   const TriangleMesh& mesh_;
   std::vector<int32_t> lampOf_;
   std::vector<Lamp> lamps_;
+  std::vector<LampSide> sides_;
 };
 
 /// A tree over some faces of the mesh.
@@ -150,10 +168,13 @@ class FaceTree {
   double FirstHit(const Vec3d& origin, const Vec3d& direction, const Counts& counts) const {
     const Kernel::Ray_3 ray(ToPoint(origin),
                             Kernel::Vector_3(direction.x, direction.y, direction.z));
-    const auto hit = tree_.first_intersection(ray, [&](const Triangles::const_iterator& triangle) {
+    const auto isSkipped = [&](const Triangles::const_iterator& triangle) {
       return !counts(faces_[size_t(triangle - triangles_.begin())]);
-    });
-    const Kernel::Point_3* point = hit ? boost::get<Kernel::Point_3>(&hit->first) : nullptr;
+    };
+    // A tree of one triangle skips nothing by itself.
+    const auto hit = tree_.first_intersection(ray, isSkipped);
+    if (!hit || isSkipped(hit->second)) return kInfinity;
+    const Kernel::Point_3* point = boost::get<Kernel::Point_3>(&hit->first);
     return point ? std::sqrt(CGAL::squared_distance(*point, ray.source())) : kInfinity;
   }
 
@@ -168,15 +189,10 @@ class FaceTree {
   TriangleTree tree_;
 };
 
-/// The lamps' faces and all that lie within `margin` of their boxes.
-std::vector<int64_t> FacesNear(const TriangleMesh& mesh, const Lamps& lamps, double margin) {
-  std::vector<int64_t> emitting;
-  for (const Lamp& lamp : lamps.All()) {
-    for (const auto& faces : lamp.faces) {
-      emitting.insert(emitting.end(), faces.begin(), faces.end());
-    }
-  }
-  const FaceTree tree(mesh, emitting);
+/// These faces and all that lie within `margin` of their boxes.
+std::vector<int64_t> FacesNear(const TriangleMesh& mesh, const std::vector<int64_t>& center,
+                               double margin) {
+  const FaceTree tree(mesh, center);
   std::vector<uint8_t> isNear(mesh.triangles.size(), 0);
   ParallelForEach(mesh.FaceCount(), 4096, [&](int64_t face) {
     Box3f box;
@@ -192,61 +208,71 @@ std::vector<int64_t> FacesNear(const TriangleMesh& mesh, const Lamps& lamps, dou
   return faces;
 }
 
-/// What lies close before and behind the lamps.
+/// What lies close before and behind some faces of lamps.
 class Surroundings {
  public:
-  Surroundings(const TriangleMesh& mesh, const Lamps& lamps, const Gaps& gaps)
+  Surroundings(const TriangleMesh& mesh, const Lamps& lamps, const Gaps& gaps,
+               const std::vector<int64_t>& faces)
       : mesh_(mesh),
         lamps_(lamps),
         gaps_(gaps),
-        tree_(mesh, FacesNear(mesh, lamps, gaps.largest)) {}
+        tree_(mesh, FacesNear(mesh, faces, gaps.largest)) {}
 
-  /// True where these faces of the lamp face nothing but a surface at no distance, and their backs
-  /// do not.
-  bool FacesSurface(int32_t lampId, const std::vector<int64_t>& faces) const {
-    constexpr double kPoints = 64, kLeastPoints = 4;
-    const double noDistance = lamps_.All()[size_t(lampId)].NoDistance(gaps_);
-    double area = 0;
-    for (const int64_t face : faces) area += mesh_.Area(face);
+  /// True where these faces of a lamp see nothing but a surface at no distance, from at least as
+  /// many points.
+  bool AreCovered(int32_t lamp, const std::vector<int64_t>& faces, double points) const {
+    return !AnySample(faces, points, [&](const Vec3d& point, const Vec3d& normal) {
+      return !IsBlockedAhead(lamp, point, normal);
+    });
+  }
 
-    bool seesFromBack = false;
-    for (const int64_t face : faces) {
-      const Vec3d normal = EmissionNormal(mesh_, face);
-      const uint32_t count =
-          uint32_t(std::max(kLeastPoints, std::ceil(kPoints * mesh_.Area(face) / area)));
-      Random random(static_cast<uint64_t>(face));
-      const float shift = random.Uniform();
-      for (uint32_t i = 0; i < count; ++i) {
-        const Vec2f b =
-            UniformTriangle((float(i) + random.Uniform()) / float(count), RadicalInverse(i, shift));
-        const Vec3d point = PointOn(face, b);
-        if (!IsBlockedAhead(lampId, point, normal, noDistance)) return false;
-        seesFromBack = seesFromBack || SeesBehind(lampId, point, normal, noDistance);
-      }
-    }
-    return seesFromBack;
+  /// True where something else is seen from behind them.
+  bool SeeFromBehind(int32_t lamp, const std::vector<int64_t>& faces) const {
+    return AnySample(faces, kPoints, [&](const Vec3d& point, const Vec3d& normal) {
+      return SeesFromBehind(lamp, point, normal);
+    });
   }
 
  private:
+  /// True where holds(point, normal towards the emission) for one of the points of the faces.
+  template <class Holds>
+  bool AnySample(const std::vector<int64_t>& faces, double points, const Holds& holds) const {
+    double area = 0;
+    for (const int64_t face : faces) area += mesh_.Area(face);
+    for (const int64_t face : faces) {
+      const Vec3d normal = EmissionNormal(mesh_, face);
+      const uint32_t count =
+          uint32_t(std::max(kPointsOfFace, std::ceil(points * mesh_.Area(face) / area)));
+      Random random(static_cast<uint64_t>(face));
+      const float shift = random.Uniform();
+      for (uint32_t i = 0; i < count; ++i) {
+        const float stratum = (float(i) + random.Uniform()) / float(count);
+        const Vec2f b = UniformTriangle(stratum, RadicalInverse(i, shift));
+        if (holds(PointOn(face, b), normal)) return true;
+      }
+    }
+    return false;
+  }
+
   Vec3d PointOn(int64_t face, const Vec2f& b) const {
     const Vec3d p(mesh_.Corner(face, 0));
     return p + (Vec3d(mesh_.Corner(face, 1)) - p) * double(b.x) +
            (Vec3d(mesh_.Corner(face, 2)) - p) * double(b.y);
   }
 
-  bool IsBlockedAhead(int32_t lampId, const Vec3d& point, const Vec3d& normal,
-                      double noDistance) const {
-    const auto isOther = [&](int64_t face) { return lamps_.LampOf(face) != lampId; };
+  bool IsBlockedAhead(int32_t lamp, const Vec3d& point, const Vec3d& normal) const {
+    const auto isOther = [&](int64_t face) { return lamps_.LampOf(face) != lamp; };
     const Vec3d start = point + normal * gaps_.plane;
-    return tree_.FirstHit(start, normal, isOther) <= noDistance - gaps_.plane;
+    return tree_.FirstHit(start, normal, isOther) <= lamps_[lamp].NoDistance(gaps_) - gaps_.plane;
   }
 
-  bool SeesBehind(int32_t lampId, const Vec3d& point, const Vec3d& normal,
-                  double noDistance) const {
-    const auto isOther = [&](int64_t face) { return lamps_.LampOf(face) != lampId; };
-    const auto isOwn = [&](int64_t face) { return lamps_.LampOf(face) == lampId; };
+  /// Nothing at no distance, not even in the lamp's own plane; the lamp itself nowhere.
+  bool SeesFromBehind(int32_t lamp, const Vec3d& point, const Vec3d& normal) const {
+    const auto isOther = [&](int64_t face) { return lamps_.LampOf(face) != lamp; };
+    const auto isOwn = [&](int64_t face) { return lamps_.LampOf(face) == lamp; };
     const Vec3d before = point + normal * gaps_.plane, behind = point - normal * gaps_.plane;
-    return tree_.FirstHit(before, -normal, isOther) > noDistance + gaps_.plane &&
+    const double noDistance = lamps_[lamp].NoDistance(gaps_) + gaps_.plane;
+    return tree_.FirstHit(before, -normal, isOther) > noDistance &&
            tree_.FirstHit(behind, -normal, isOwn) == kInfinity;
   }
 
@@ -256,6 +282,50 @@ class Surroundings {
   const FaceTree tree_;
 };
 
+/// The sides for which holds(side), in their order.
+template <class Holds>
+std::vector<LampSide> Select(const std::vector<LampSide>& sides, const Holds& holds) {
+  std::vector<uint8_t> keep(sides.size());
+  ParallelForEach(int64_t(sides.size()), 1,
+                  [&](int64_t i) { keep[size_t(i)] = holds(sides[size_t(i)]); });
+  std::vector<LampSide> kept;
+  for (size_t i = 0; i < sides.size(); ++i) {
+    if (keep[i]) kept.push_back(sides[i]);
+  }
+  return kept;
+}
+
+/// Lamps that face a surface at no distance, the faces of either winding for themselves.
+std::vector<LampSide> FacingSides(const TriangleMesh& mesh, const Lamps& lamps) {
+  const Gaps gaps = GapsOf(mesh.Bounds());
+
+  if (!(gaps.largest < kInfinity)) return {};
+
+  // Most are cleared by a look from one face of theirs.
+  std::vector<int64_t> faces;
+  for (const LampSide& side : lamps.Sides()) faces.push_back(side.faces.front());
+  const Surroundings ofOneFace(mesh, lamps, gaps, faces);
+  const std::vector<LampSide> suspects = Select(lamps.Sides(), [&](const LampSide& side) {
+    return ofOneFace.AreCovered(side.lamp, {side.faces.front()}, kPointsOfFace);
+  });
+  if (suspects.empty()) return {};
+
+  // The others see nothing else from any face, but do from behind.
+  std::vector<uint8_t> isSuspect(size_t(lamps.Count()), 0);
+  for (const LampSide& side : suspects) isSuspect[size_t(side.lamp)] = 1;
+  faces.clear();
+  for (const LampSide& side : lamps.Sides()) {
+    if (isSuspect[size_t(side.lamp)]) {
+      faces.insert(faces.end(), side.faces.begin(), side.faces.end());
+    }
+  }
+  const Surroundings ofAllFaces(mesh, lamps, gaps, faces);
+  return Select(suspects, [&](const LampSide& side) {
+    return ofAllFaces.AreCovered(side.lamp, side.faces, kPoints) &&
+           ofAllFaces.SeeFromBehind(side.lamp, side.faces);
+  });
+}
+
 }  // namespace
 
 std::vector<int64_t> TurnFacingEmitters(const std::vector<CleanedMesh>& meshes,
@@ -263,29 +333,12 @@ std::vector<int64_t> TurnFacingEmitters(const std::vector<CleanedMesh>& meshes,
   TriangleMesh& mesh = scene->mesh;
   std::vector<int64_t> turnedOfMaterial(scene->materials.size(), 0);
   const Lamps lamps(meshes, ranges, *scene);
-  const int64_t lampCount = int64_t(lamps.All().size());
-  if (lampCount == 0) return turnedOfMaterial;
-
-  // Lamps that face a surface at no distance, each winding for itself.
-  const Surroundings surroundings(mesh, lamps, GapsOf(mesh.Bounds()));
-  std::vector<std::array<uint8_t, 2>> isTurned(static_cast<size_t>(lampCount));
-  ParallelForEach(lampCount, 1, [&](int64_t i) {
-    const Lamp& lamp = lamps.All()[size_t(i)];
-    for (size_t winding = 0; winding < 2; ++winding) {
-      isTurned[size_t(i)][winding] = surroundings.FacesSurface(int32_t(i), lamp.faces[winding]);
+  if (lamps.Sides().empty()) return turnedOfMaterial;
+  for (const LampSide& side : FacingSides(mesh, lamps)) {
+    for (const int64_t face : side.faces) {
+      mesh.faceFlags[size_t(face)] ^= kEmitsFront | kEmitsBack;
     }
-  });
-
-  // They emit from their other side.
-  for (int64_t i = 0; i < lampCount; ++i) {
-    const Lamp& lamp = lamps.All()[size_t(i)];
-    for (size_t winding = 0; winding < 2; ++winding) {
-      if (!isTurned[size_t(i)][winding]) continue;
-      for (const int64_t face : lamp.faces[winding]) {
-        mesh.faceFlags[size_t(face)] ^= kEmitsFront | kEmitsBack;
-      }
-      ++turnedOfMaterial[size_t(mesh.materialId[size_t(lamp.faces[winding].front())])];
-    }
+    ++turnedOfMaterial[size_t(mesh.materialId[size_t(side.faces.front())])];
   }
   return turnedOfMaterial;
 }

@@ -205,6 +205,16 @@ TEST_F(FacingEmitters, InsideATightCoverStay) {
   EXPECT_EQ(scene.mesh.faceFlags[12], kEmitsFront);
 }
 
+TEST_F(FacingEmitters, OfAnySizeAreSurvived) {
+  // Areas that are no numbers in single precision, too small and too large.
+  for (const float side : {1e-25f, 1e15f, 1e25f}) {
+    assembly_ = MakeAssembly(MakeCube(side));
+    Add(Square(true, side, 0), "tube");
+    Clean();
+    EXPECT_EQ(report_.invertedEmitters, 0);
+  }
+}
+
 TEST_F(FacingEmitters, WrappedAboutACoreAreTurnedOutward) {
   TriangleMesh tube = MakeCube(0.5f);
   for (size_t face = 0; face < 12; ++face) FlipWinding(&tube, face);
