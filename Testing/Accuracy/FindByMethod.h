@@ -1,0 +1,12 @@
+// One function a method; AccuracyMethods.cxx lists them.
+#pragma once
+
+#include "AccuracyMethods.h"
+
+namespace lambert::testing {
+
+std::vector<Finding> FindByClosedForm(const AccuracyCase& asked);
+std::vector<Finding> FindByPathTracing(const AccuracyCase& asked);
+std::vector<Finding> FindByHierarchicalRadiosity(const AccuracyCase& asked);
+
+}  // namespace lambert::testing
