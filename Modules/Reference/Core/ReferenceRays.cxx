@@ -22,19 +22,44 @@ struct ReferenceRays::Implementation {
   const TriangleMesh& mesh;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
-  float nearest = 0;  ///< a hit nearer than this does not block, m
+  float nearest = 0;  ///< a parallel face nearer than this does not block, m
   float lift = 0;     ///< rays start this far above their face, against rounding alone, m
 };
 
 namespace {
 
-RTCRay MakeRay(const Vec3f& from, const Vec3f& direction, float tnear, float tfar) {
+RTCRay MakeRay(const Vec3f& from, const Vec3f& direction, float tfar) {
   RTCRay ray{};
   ray.org_x = from.x, ray.org_y = from.y, ray.org_z = from.z;
   ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
-  ray.tnear = tnear, ray.tfar = tfar;
+  ray.tfar = tfar;
   ray.mask = ~0u;
   return ray;
+}
+
+/// The start of a ray, for the filter of its hits.
+struct RayContext {
+  RTCIntersectContext embree;
+  Vec3f plane;  ///< unit normal of the surface that the ray leaves
+  float nearest;
+
+  RayContext(const Vec3f& plane_, float nearest_) : plane(plane_), nearest(nearest_) {
+    rtcInitIntersectContext(&embree);
+  }
+};
+
+/// Cosine of the angle (8 degrees) within which a face counts as parallel to the start's plane.
+constexpr float kParallel = 0.99f;
+
+/// Lets rays pass the faces that lie at no distance upon the surface that they leave. A wall that
+/// rises from it blocks however near it is, or light would leak along the edges of rooms.
+void PassCoincidentFaces(const RTCFilterFunctionNArguments* arguments) {
+  const auto& context = *reinterpret_cast<const RayContext*>(arguments->context);
+  if (RTCRayN_tfar(arguments->ray, 1, 0) >= context.nearest) return;
+  const Vec3f normal(RTCHitN_Ng_x(arguments->hit, 1, 0), RTCHitN_Ng_y(arguments->hit, 1, 0),
+                     RTCHitN_Ng_z(arguments->hit, 1, 0));
+  const float cosine = Dot(normal, context.plane);
+  if (cosine * cosine > kParallel * kParallel * LengthSquared(normal)) arguments->valid[0] = 0;
 }
 
 RTCGeometry MakeGeometry(RTCDevice device, const TriangleMesh& mesh) {
@@ -45,6 +70,8 @@ RTCGeometry MakeGeometry(RTCDevice device, const TriangleMesh& mesh) {
                                         3 * sizeof(int32_t), mesh.triangles.size());
   std::memcpy(points, mesh.positions.data(), mesh.positions.size() * sizeof(Vec3f));
   std::memcpy(faces, mesh.triangles.data(), mesh.triangles.size() * 3 * sizeof(int32_t));
+  rtcSetGeometryIntersectFilterFunction(geometry, PassCoincidentFaces);
+  rtcSetGeometryOccludedFilterFunction(geometry, PassCoincidentFaces);
   rtcCommitGeometry(geometry);
   return geometry;
 }
@@ -80,10 +107,9 @@ bool ReferenceRays::Blocked(const ReferenceVertex& at, const Vec3f& direction,
   const Implementation& self = *implementation_;
   const float end = distance - self.nearest;
   if (!(end > self.nearest)) return false;
-  RTCRay ray = MakeRay(self.Origin(at), direction, self.nearest, end);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(self.scene, &context, &ray);
+  RTCRay ray = MakeRay(self.Origin(at), direction, end);
+  RayContext context(at.geometric, self.nearest);
+  rtcOccluded1(self.scene, &context.embree, &ray);
   return ray.tfar < 0;
 }
 
@@ -91,12 +117,10 @@ bool ReferenceRays::Closest(const ReferenceVertex& at, const Vec3f& direction,
                             ReferenceHit* hit) const {
   const Implementation& self = *implementation_;
   RTCRayHit query;
-  query.ray =
-      MakeRay(self.Origin(at), direction, self.nearest, std::numeric_limits<float>::infinity());
+  query.ray = MakeRay(self.Origin(at), direction, std::numeric_limits<float>::infinity());
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(self.scene, &context, &query);
+  RayContext context(at.geometric, self.nearest);
+  rtcIntersect1(self.scene, &context.embree, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
 
   // The place by barycentrics, which lies on the face more exactly than a point along the ray.

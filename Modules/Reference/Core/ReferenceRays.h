@@ -22,8 +22,8 @@ struct ReferenceHit {
   ReferenceVertex vertex;  ///< on the side that was hit, with its geometric normal
 };
 
-/// Rays against all faces, both sides of which block. A hit nearer than 1e-5 of the scene diagonal
-/// does not.
+/// Rays against all faces, both sides of which block; but not those that lie upon the start: nearer
+/// than 1e-5 of the scene diagonal, and within 8 degrees of parallel to its geometric plane.
 class ReferenceRays {
  public:
   /// Keeps a reference to `mesh`. Throws Error where Embree cannot be started.
