@@ -33,6 +33,9 @@ class LAMBERTCOMMON_EXPORT vtkRadiosityArrays : public vtkObject {
   static const char* Irradiance() { return "Irradiance"; }              ///< 3 float, W/m2
   static const char* Radiosity() { return "Radiosity"; }                ///< 3 float, W/m2
   static const char* IrradianceVector() { return "IrradianceVector"; }  ///< 9 float, W/m2
+  static const char* StandardError() { return "StandardError"; }        ///< 3 float, W/m2
+  /// 3 float, unit, of the surface that a point lies on
+  static const char* GeometricNormals() { return "GeometricNormals"; }
   ///@}
 
   ///@{ Tables in the field data, a tuple a row: materials, parts, lights; and the camera.
