@@ -1,5 +1,6 @@
 #include "Classical/Core/CachedRadiosity.h"
 
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -24,18 +25,65 @@ void RequireOptions(const CachedRadiosityOptions& options) {
   }
 }
 
-/// Per face, bit 1 where light reaches its front, bit 2 its back: where it reaches a cell there, or
-/// the side emits.
-std::vector<uint8_t> LitSides(const TriangleMesh& mesh, const ElementCells& cells,
-                              const ElementCache& cache) {
+/// What the solver has made so far.
+struct FilledCache {
+  const Scene& scene;
+  const RayScene& rays;
+  const SourceLight& sources;
+  const ElementCells& cells;
+  const ElementCache& cache;
+};
+
+/// A few rays from the middle of a small face, whose cell may be dark elsewhere: do they find
+/// light?
+bool FindsLight(const FilledCache& filled, int64_t face, Side side, uint64_t seed, int64_t* cast) {
+  constexpr int kRays = 4;
+  const TriangleMesh& mesh = filled.scene.mesh;
+  const Vec3f normal = mesh.FrontNormal(face) * (side == kFront ? 1.f : -1.f);
+  if (LengthSquared(normal) == 0) return false;
+  const Vec3f middle = (mesh.Corner(face, 0) + mesh.Corner(face, 1) + mesh.Corner(face, 2)) / 3.f;
+  const LightReceiver at{middle, normal, normal};
+  Random random(HashBits(seed, uint64_t(face) * 2 + side));
+  if (!filled.sources.FromEmitters(at, 1, &random, cast).IsBlack()) return true;
+  if (!filled.sources.FromLights(at, cast).IsBlack()) return true;
+  Vec3f s, t;
+  CoordinateSystem(normal, &s, &t);
+  for (int ray = 0; ray < kRays; ++ray, ++*cast) {
+    const float u = random.Uniform(), v = (float(ray) + random.Uniform()) / kRays;
+    const Vec3f local = CosineHemisphere(u, v);
+    const Vec3f direction = Normalize(s * local.x + t * local.y + normal * local.z);
+    const RayHit hit = filled.rays.Closest(middle, direction);
+    if (hit.face < 0) {
+      if (!filled.sources.Sky().IsBlack()) return true;
+      continue;
+    }
+    const Side met = Dot(mesh.VectorArea(hit.face), direction) < 0 ? kFront : kBack;
+    if (filled.cache.IsLit(filled.cells.At(hit.face, hit.barycentric), met)) return true;
+  }
+  return false;
+}
+
+/// Per face, bit 1 where light reaches its front, bit 2 its back: where it reaches a cell there,
+/// the side emits, or the face by itself finds light where its cells do not.
+std::vector<uint8_t> LitSides(const FilledCache& filled, uint64_t seed, int64_t* cast) {
+  const TriangleMesh& mesh = filled.scene.mesh;
   std::vector<uint8_t> lit(mesh.triangles.size(), 0);
-  ParallelForEach(mesh.FaceCount(), 1024, [&](int64_t face) {
+  std::vector<uint8_t> castByFace(mesh.triangles.size(), 0);
+  ParallelForEach(mesh.FaceCount(), 256, [&](int64_t face) {
+    int64_t rays = 0;
     for (const Side side : {kFront, kBack}) {
       bool isLit = mesh.Emits(face, side) && !mesh.emittance[size_t(face)].IsBlack();
-      cells.ForEachCell(face, [&](int32_t cell) { isLit |= cache.IsLit(cell, side); });
+      bool isShared = false;
+      filled.cells.ForEachCell(face, [&](int32_t cell) {
+        isLit |= filled.cache.IsLit(cell, side);
+        isShared |= filled.cells.IsShared(cell);
+      });
+      if (!isLit && isShared) isLit = FindsLight(filled, face, side, seed, &rays);
       if (isLit) lit[size_t(face)] |= uint8_t(1 << side);
     }
+    castByFace[size_t(face)] = uint8_t(std::min<int64_t>(255, rays));
   });
+  *cast += std::accumulate(castByFace.begin(), castByFace.end(), int64_t(0));
   return lit;
 }
 
@@ -86,7 +134,9 @@ RadiositySolution SolveCachedRadiosity(const Scene& scene, const CachedRadiosity
 
   // The points, and their light.
   const UniformMesh mesh = MakeUniformMesh(scene, elementSize);
-  UniformSolution uniform = MakeUniformSolution(scene, mesh, LitSides(scene.mesh, cells, cache));
+  int64_t cast = 0;
+  UniformSolution uniform = MakeUniformSolution(
+      scene, mesh, LitSides({scene, rays, sources, cells, cache}, options.seed, &cast));
   const std::vector<LightReceiver> points =
       GatherPoints(mesh, uniform, kClearance * rays.Epsilon());
   CacheGatherOptions gather;
@@ -94,7 +144,6 @@ RadiositySolution SolveCachedRadiosity(const Scene& scene, const CachedRadiosity
   gather.emitterRays = options.emitterRays;
   gather.nearby = kNearby * elementSize;
   gather.seed = HashBits(options.seed, 0x676174686572ull);
-  int64_t cast = 0;
   std::vector<Spectrum> irradiance = GatherFromCache(scene, rays, sources, cache, points, gather,
                                                      &cast, ShareOf(progress, 0.3, 1));
   if (statistics) {

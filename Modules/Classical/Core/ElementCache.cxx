@@ -21,6 +21,8 @@ constexpr int64_t kSidesPerBatch = 32;
 /// Sweeps end where what is still to come is less than this part of all light.
 constexpr double kRemainder = 1e-3;
 constexpr int kMostSweeps = 2000;
+/// Less than this part of the mean irradiance is darkness.
+constexpr double kDarkness = 1e-4;
 
 struct Power {
   double r = 0, g = 0, b = 0;
@@ -309,6 +311,17 @@ void ElementCache::Solve(const ProgressCallback& progress) {
     before = added;
     if (added * decline / (1 - decline) < kRemainder) break;
   }
+  darkness_ = float(kDarkness * MeanIrradiance());
+}
+
+/// Of lit sides by area, mean of the bands, W/m2.
+double ElementCache::MeanIrradiance() const {
+  double sum = 0, area = 0;
+  for (const int32_t side : sideOfRow_) {
+    sum += double(irradiance_[size_t(side)].Mean()) * double(cells_.Area(side / 2));
+    area += double(cells_.Area(side / 2));
+  }
+  return area > 0 ? sum / area : 0;
 }
 
 void ElementCache::Account(SolverStatistics* statistics) const {

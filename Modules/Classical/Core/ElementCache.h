@@ -24,7 +24,11 @@ class ElementCache {
   /// Cancelled.
   void Fill(const ProgressCallback& progress = {});
 
-  bool IsLit(int32_t cell, Side side) const { return lit_[SideIndex(cell, side)] != 0; }
+  /// True where a side has more than a ten-thousandth of the mean irradiance: less is what leaks
+  /// through the seams of closed things, and black in any picture.
+  bool IsLit(int32_t cell, Side side) const {
+    return irradiance_[SideIndex(cell, side)].Mean() > darkness_;
+  }
   /// Reflected radiosity (W/m2) of the side of a face that a ray met; its own emission is not in.
   Spectrum Reflected(int32_t face, Side side, const Vec2f& barycentric) const {
     const size_t index = SideIndex(cells_.At(face, barycentric), side);
@@ -57,6 +61,7 @@ class ElementCache {
   bool IsBuried(size_t row, int place) const;
   void PrepareRows();
   void Solve(const ProgressCallback& progress);
+  double MeanIrradiance() const;
   const Spectrum& Emittance(int32_t side) const {
     return cells_.Emittance(side / 2, side % 2 ? kBack : kFront);
   }
@@ -75,6 +80,7 @@ class ElementCache {
   PathSet paths_;
   std::vector<Spectrum> received_;  ///< by row: mean light from sources and sky, W/m2
   std::vector<float> perRay_;       ///< by row: what one ray counts
+  float darkness_ = 0;              ///< W/m2
   int64_t rayCount_ = 0;
   std::vector<IterationRecord> history_;
 };

@@ -31,6 +31,10 @@ class ElementCells {
   int32_t At(int64_t face, const Vec2f& barycentric) const {
     return cellOfFragment_[size_t(FragmentAt(grids_[size_t(face)], barycentric))];
   }
+  /// True where the cell has fragments of other faces, or several of one.
+  bool IsShared(int32_t cell) const {
+    return firstOfCell_[size_t(cell) + 1] - firstOfCell_[size_t(cell)] > 1;
+  }
   float Area(int32_t cell) const { return cellArea_[size_t(cell)]; }  ///< m2, of one side
   /// Mean over the cell by area.
   const Spectrum& Reflectance(int32_t cell) const { return cellReflectance_[size_t(cell)]; }
