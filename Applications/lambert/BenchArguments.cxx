@@ -41,8 +41,9 @@ void BenchArguments::AddTo(CLI::App* command) {
   // The knobs.
   AddValues(command, "--errors", &errors, 1, "Wanted errors of hierarchical");
   AddValues(command, "--samples", &samples, 1e7, "Paths a vertex of reference");
+  AddValues(command, "--gather-rays", &gatherRays, 1e6, "Gather rays a vertex of cached");
   AddValues(command, "--element-sizes", &elementSizes, 1,
-            "Sizes of elements of the others, fractions of the scene's diagonal");
+            "Elements of matrix and progressive, fractions of the scene's diagonal");
   command->add_option("--longest", longest, "Seconds; a run expected to take more is left out")
       ->check(CLI::Range(0.001, 1e6))
       ->capture_default_str();
@@ -90,6 +91,7 @@ void BenchArguments::Check() {
   runs = 1;
   errors = {0.5, 0.2};
   samples = {4, 16};
+  gatherRays = {16, 64};
   elementSizes = {0.2, 0.1};
   longest = 2;
   vertices = std::min<int64_t>(vertices, 1000);
@@ -105,11 +107,13 @@ bool BenchArguments::Has(const std::string& study) const {
 }
 
 std::vector<double> BenchArguments::Values(const std::string& knob) const {
-  std::vector<double> values = knob == "error"     ? errors
-                               : knob == "samples" ? samples
-                                                   : elementSizes;
+  const bool moreIsFiner = knob == "samples" || knob == "gather_rays";
+  std::vector<double> values = knob == "error"         ? errors
+                               : knob == "samples"     ? samples
+                               : knob == "gather_rays" ? gatherRays
+                                                       : elementSizes;
   std::sort(values.begin(), values.end());
-  if (knob != "samples") std::reverse(values.begin(), values.end());
+  if (!moreIsFiner) std::reverse(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
 }

@@ -25,6 +25,7 @@ struct BenchArguments {
   // The knobs.
   std::vector<double> errors{0.5, 0.3, 0.2, 0.1, 0.05, 0.03, 0.02};
   std::vector<double> samples{4, 16, 64, 256, 1024};
+  std::vector<double> gatherRays{16, 64, 256, 1024};
   std::vector<double> elementSizes{0.16, 0.08, 0.04, 0.02, 0.01};  ///< of the scene's diagonal
   double longest = 120;  ///< s that a run may be expected to take; a finer one is left out
 

@@ -1,12 +1,16 @@
 #include "BenchMethods.h"
 
+#include <algorithm>
+#include <numeric>
+
+#include "Classical/Core/CachedRadiosity.h"
+#include "Classical/Core/MatrixRadiosity.h"
+#include "Classical/Core/ProgressiveRadiosity.h"
 #include "Clustering/Core/FaceClustering.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Timer.h"
 #include "Radiosity/Core/HierarchicalRadiosity.h"
 #include "Reference/Core/PathTracedBake.h"
-
-#include <numeric>
 
 namespace lambert {
 namespace {
@@ -28,13 +32,42 @@ BenchOutcome RunPathTracedBake(const Scene& scene, double samples, uint64_t seed
   return TimeOneStage([&](SolverStatistics* s) { return BakePathTraced(scene, options, s); });
 }
 
+BenchOutcome RunCached(const Scene& scene, double gatherRays, uint64_t seed) {
+  // Cells of the usual size; their paths and the rays to emitters grow with the gather rays.
+  CachedRadiosityOptions options;
+  options.gatherRays = options.paths = int(gatherRays);
+  options.emitterRays = std::max(1, int(gatherRays) / 4);
+  options.seed = seed;
+  return TimeOneStage([&](SolverStatistics* s) { return SolveCachedRadiosity(scene, options, s); });
+}
+
+double ElementSize(const Scene& scene, double fraction) {
+  return fraction * double(scene.mesh.Bounds().Diagonal());
+}
+
+BenchOutcome RunMatrix(const Scene& scene, double size, uint64_t) {
+  MatrixRadiosityOptions options;
+  options.elementSize = ElementSize(scene, size);
+  return TimeOneStage([&](SolverStatistics* s) { return SolveMatrixRadiosity(scene, options, s); });
+}
+
+BenchOutcome RunProgressive(const Scene& scene, double size, uint64_t) {
+  ProgressiveRadiosityOptions options;
+  options.elementSize = ElementSize(scene, size);
+  return TimeOneStage(
+      [&](SolverStatistics* s) { return SolveProgressiveRadiosity(scene, options, s); });
+}
+
 }  // namespace
 
 const std::vector<BenchMethod>& BenchMethods() {
   static const std::vector<BenchMethod> methods{
-      {"hierarchical", "hierarchical", "error", false, true, 0,
+      {"hierarchical", "hierarchical", "error", false, true,
        [](const Scene& scene, double error, uint64_t) { return RunHierarchical(scene, error); }},
-      {"reference", "path-traced bake", "samples", false, false, 0, RunPathTracedBake},
+      {"reference", "path-traced bake", "samples", false, false, RunPathTracedBake},
+      {"cached", "path-traced cache", "gather_rays", false, true, RunCached},
+      {"matrix", "matrix", "size", true, true, RunMatrix},
+      {"progressive", "progressive", "size", true, true, RunProgressive},
   };
   return methods;
 }

@@ -20,12 +20,11 @@ struct BenchOutcome {
 };
 
 struct BenchMethod {
-  const char* name;         ///< as in --methods and in the CSV
-  const char* label;        ///< at its curve
-  const char* knob;         ///< error, samples, or size (of elements, fraction of the diagonal)
-  bool meshesByItself;      ///< takes the scene before it was tessellated
-  bool hasElements;         ///< models the scene by elements
-  int64_t maximumElements;  ///< is not run on scenes of more faces; 0: any
+  const char* name;     ///< as in --methods and in the CSV
+  const char* label;    ///< at its curve
+  const char* knob;     ///< error, samples, gather_rays, or size (fraction of the diagonal)
+  bool meshesByItself;  ///< takes the scene before it was tessellated
+  bool hasElements;     ///< models the scene by elements
   std::function<BenchOutcome(const Scene&, double knob, uint64_t seed)> run;
 };
 
