@@ -117,7 +117,18 @@ void SolveArguments::AddTo(CLI::App* command) {
   command->add_option("--samples", method.reference.samples, "Reference: paths a vertex")
       ->check(CLI::Range(1, 100000000))
       ->capture_default_str();
-  command->add_option("--seed", method.reference.seed, "Reference: another choice of paths")
+  command
+      ->add_option("--element-size", elementSize,
+                   "Matrix, cached: longest edge, m; 0: 1/50 of the scene's diagonal")
+      ->check(NotNegative())
+      ->capture_default_str();
+  command->add_option("--paths", method.cached.paths, "Cached: paths an element's side")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--gather-rays", method.cached.gatherRays, "Cached: rays a point")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--seed", seed, "Reference, cached: another seed, another choice of paths")
       ->capture_default_str();
   command->add_option("--error", solver.error, "Wanted relative RMS error of irradiance, (0, 1]")
       ->check(Within(1e-6, 1, "from 1e-6 to 1"))
@@ -241,6 +252,8 @@ RadiosityRunOptions SolveArguments::RunOptions() const {
   RadiosityRunOptions options;
   scene.Apply(&options);
   options.method = method;
+  options.method.matrix.elementSize = options.method.cached.elementSize = elementSize;
+  options.method.reference.seed = options.method.cached.seed = seed;
   options.solver = solver;
   options.timeLimit = time;
   if (!sky.empty()) options.sky = ToSpectrum(sky);

@@ -37,6 +37,8 @@ struct SolveArguments {
   SceneArguments scene;
   std::string output;
   SolveMethodOptions method;
+  double elementSize = 0;
+  uint64_t seed = PathTracedBakeOptions().seed;
   HierarchicalRadiosityOptions solver;
   double time = 0;
   int threads = 0;

@@ -9,6 +9,8 @@ const std::vector<SolveMethodTraits>& SolveMethods() {
   static const std::vector<SolveMethodTraits> methods{
       {SolveMethod::Hierarchical, "hierarchical", {"--error", "--time", "--iterations"}},
       {SolveMethod::Reference, "reference", {"--samples", "--seed"}},
+      {SolveMethod::Matrix, "matrix", {"--element-size"}},
+      {SolveMethod::Cached, "cached", {"--element-size", "--paths", "--gather-rays", "--seed"}},
   };
   return methods;
 }
@@ -23,6 +25,13 @@ std::vector<std::pair<std::string, double>> ValuesOf(const SolveMethodOptions& o
     case SolveMethod::Reference:
       return {{"samples", options.reference.samples},
               {"seed", static_cast<double>(options.reference.seed)}};
+    case SolveMethod::Matrix:
+      return {{"element_size", options.matrix.elementSize}};
+    case SolveMethod::Cached:
+      return {{"element_size", options.cached.elementSize},
+              {"paths", options.cached.paths},
+              {"gather_rays", options.cached.gatherRays},
+              {"seed", static_cast<double>(options.cached.seed)}};
     case SolveMethod::Hierarchical:
       break;
   }
@@ -34,6 +43,10 @@ RadiositySolution SolveInOnePass(const Scene& scene, const SolveMethodOptions& o
   switch (options.method) {
     case SolveMethod::Reference:
       return BakePathTraced(scene, options.reference, statistics, progress);
+    case SolveMethod::Matrix:
+      return SolveMatrixRadiosity(scene, options.matrix, statistics, progress);
+    case SolveMethod::Cached:
+      return SolveCachedRadiosity(scene, options.cached, statistics, progress);
     case SolveMethod::Hierarchical:
       break;
   }

@@ -3,6 +3,8 @@
 #ifndef SolveMethod_h
 #define SolveMethod_h
 
+#include "Classical/Core/CachedRadiosity.h"
+#include "Classical/Core/MatrixRadiosity.h"
 #include "Common/Core/Progress.h"
 #include "Reference/Core/PathTracedBake.h"
 #include "Scene/Core/RadiositySolution.h"
@@ -17,6 +19,8 @@ namespace lambert {
 enum class SolveMethod {
   Hierarchical,  ///< hierarchical radiosity on face clusters, iteration by iteration
   Reference,     ///< path-traced light at the vertices of the mesh
+  Matrix,        ///< all form factors between uniform elements, Gauss-Seidel
+  Cached,        ///< path-traced light of uniform elements, gathered at points
 };
 
 /// The chosen method, and the options of those that are one function of the scene; Hierarchical has
@@ -24,6 +28,8 @@ enum class SolveMethod {
 struct SolveMethodOptions {
   SolveMethod method = SolveMethod::Hierarchical;
   PathTracedBakeOptions reference;
+  MatrixRadiosityOptions matrix;
+  CachedRadiosityOptions cached;
 };
 
 /// What is known of a method without running it.
