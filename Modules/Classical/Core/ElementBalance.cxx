@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "Classical/Core/LightsAtPoint.h"
+#include "Classical/Core/LampsAndSky.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
 
@@ -78,26 +78,18 @@ void AddLamp(const Light& lamp, const RayScene& rayScene, PowerSum* emitted, Pow
 
 void SideLight::GatherLights(const Scene& scene, const ElementSides& sides,
                              const RayScene& rayScene, int skyRays, int64_t* rays) {
-  std::vector<Light> lamps, far;
-  for (const Light& light : scene.lights) {
-    const bool isFar = light.type == LightType::Sky || light.type == LightType::Directional;
-    (isFar ? far : lamps).push_back(light);
-  }
-  if (lamps.empty() && far.empty()) return;
+  const LampsAndSky lights(scene, rayScene);
+  if (lights.IsEmpty()) return;
   std::vector<int64_t> cast(size_t(sides.Count()), 0);
   const int skyRaysPerPlace = (skyRays + kPlacesPerElement - 1) / kPlacesPerElement;
   ParallelForEach(sides.Count(), 16, [&](int64_t i) {
-    const ExchangeTriangle& triangle = sides.triangles[size_t(i)];
-    const Vec3f& n = triangle.normal;
+    const size_t side = size_t(i);
+    const ExchangeTriangle& triangle = sides.triangles[side];
     for (int place = 0; place < kPlacesPerElement; ++place) {
-      const Vec3f x = triangle.Place(place);
+      const LightReceiver at{triangle.Place(place), triangle.normal, triangle.normal};
       const uint64_t seed = HashBits(uint64_t(i), uint64_t(place));
-      const float share = 1.f / kPlacesPerElement;
-      fromLamps[size_t(i)] +=
-          IrradianceFromLights(lamps, rayScene, x, n, n, 0, seed, &cast[size_t(i)]) * share;
-      fromFar[size_t(i)] +=
-          IrradianceFromLights(far, rayScene, x, n, n, skyRaysPerPlace, seed, &cast[size_t(i)]) *
-          share;
+      fromLamps[side] += lights.FromLamps(at, &cast[side]) / kPlacesPerElement;
+      fromFar[side] += lights.FromFar(at, skyRaysPerPlace, seed, &cast[side]) / kPlacesPerElement;
     }
   });
   for (const int64_t count : cast) *rays += count;

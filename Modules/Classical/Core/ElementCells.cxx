@@ -17,7 +17,9 @@ constexpr int64_t kMostFragments = 50'000'000;
 /// Fragments under this part of a square element are small enough to share a cell.
 constexpr double kSmallPart = 0.25;
 /// Normals whose components times this round alike face alike: bins of some 25 degrees.
-constexpr float kNormalBins = 2.5f;
+constexpr float kNormalBins = 2.4f;
+/// Keeps the borders of the cubes off the round coordinates where planes lie.
+constexpr double kCubeShift = 0.3819660113;
 
 int Bin(double x) { return int(std::floor(x)); }
 
@@ -25,7 +27,7 @@ int Bin(double x) { return int(std::floor(x)); }
 uint64_t GroupKey(int32_t part, const Vec3f& center, const Vec3f& normal, double elementSize) {
   uint64_t key = HashBits(uint64_t(uint32_t(part)));
   for (int axis = 0; axis < 3; ++axis) {
-    const uint32_t place = uint32_t(Bin(double(center[axis]) / elementSize));
+    const uint32_t place = uint32_t(Bin(double(center[axis]) / elementSize + kCubeShift));
     const uint32_t facing = uint32_t(Bin(double(normal[axis] * kNormalBins) + 0.5));
     key = HashBits(key, (uint64_t(place) << 32) | facing);
   }

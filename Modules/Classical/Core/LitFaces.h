@@ -4,18 +4,19 @@
 #include <cstdint>
 #include <vector>
 
+#include "Classical/Core/SourceLight.h"
 #include "Classical/Core/UniformMesh.h"
 #include "Scene/Core/Scene.h"
 #include "Visibility/Core/RayScene.h"
 
 namespace lambert {
 
-/// Per face of the scene, bit 1 where light reaches its front, bit 2 its back. Rays from the
-/// elements of every side tell which sides see each other, a light or the sky; a side is lit that
-/// emits or sees a lit one, directly or over others. Sampled (64 rays a side at least), so that a
-/// side that sees light only through a chink may be missed; it then stays black. Adds the rays to
-/// `rays`.
+/// Per face of the scene, bit 1 where light reaches its front, bit 2 its back: where the side
+/// emits, or one of the paths that start on it finds a light, an emitter or the sky. 16 paths a
+/// side at least, one from every element, of up to 6 bounces: a side that sees light only through a
+/// chink may be missed; it then stays black. Adds the rays to `rays`.
 std::vector<uint8_t> FindLitFaces(const Scene& scene, const UniformMesh& mesh,
-                                  const RayScene& rayScene, int64_t* rays);
+                                  const RayScene& rayScene, const SourceLight& sources,
+                                  int64_t* rays);
 
 }  // namespace lambert

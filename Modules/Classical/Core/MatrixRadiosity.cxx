@@ -57,7 +57,8 @@ RadiositySolution SolveMatrixRadiosity(const Scene& scene, const MatrixRadiosity
   // Elements, and those of their sides that light can reach.
   const UniformMesh mesh = MakeUniformMesh(scene, options.elementSize);
   const RayScene rayScene(scene.mesh);
-  const std::vector<uint8_t> litFaces = FindLitFaces(scene, mesh, rayScene, &account.rays);
+  const std::vector<uint8_t> litFaces =
+      FindLitFaces(scene, mesh, rayScene, SourceLight(scene, rayScene), &account.rays);
   const ElementSides sides = CollectElementSides(scene, mesh, litFaces);
 
   // Form factors.
