@@ -78,7 +78,10 @@ void CacheGatherer::Follow(int32_t ray, int32_t point, int64_t* cast) {
   const RayHit& hit = first_.Hit(ray);
   const Side side = SideOf(hit, first_.Direction(ray));
   const Vec3f normal = scene_.mesh.FrontNormal(hit.face) * (side == kFront ? 1.f : -1.f);
-  const LightReceiver at{first_.HitPosition(ray), normal, normal};
+  const Vec3f middle = (scene_.mesh.Corner(hit.face, 0) + scene_.mesh.Corner(hit.face, 1) +
+                        scene_.mesh.Corner(hit.face, 2)) /
+                       3.f;
+  const LightReceiver at{DrawnInward(first_.HitPosition(ray), middle, rays_), normal, normal};
   Random random(HashBits(HashBits(options_.seed, uint64_t(point)), uint64_t(ray) + 1));
   const Spectrum direct =
       sources_.FromEmitters(at, 1, &random, cast) + sources_.FromLights(at, cast);
@@ -132,6 +135,14 @@ void CacheGatherer::Gather(const int32_t* order, int count, Spectrum* irradiance
 }
 
 }  // namespace
+
+Vec3f DrawnInward(const Vec3f& position, const Vec3f& middle, const RayScene& rays) {
+  constexpr float kClearance = 8;
+  constexpr float kMostInward = 0.1f;
+  const Vec3f inward = middle - position;
+  const float distance = Length(inward), clearance = kClearance * rays.Epsilon();
+  return position + inward * (distance > 0 ? std::min(kMostInward, clearance / distance) : 0);
+}
 
 std::vector<Spectrum> GatherFromCache(const Scene& scene, const RayScene& rays,
                                       const SourceLight& sources, const ElementCache& cache,

@@ -17,6 +17,11 @@ struct CacheGatherOptions {
   uint64_t seed = 1;
 };
 
+/// `position` drawn toward the middle of its face or element by 8 times the length that rays skip,
+/// but no more than a tenth of the way: from there, rays leak past no surface that meets this one
+/// at its edge.
+Vec3f DrawnInward(const Vec3f& position, const Vec3f& middle, const RayScene& rays);
+
 /// Irradiance (W/m2) at every point. What point i receives depends on the scene, the options and i
 /// alone. Adds the rays cast to `cast`. Throws Cancelled.
 std::vector<Spectrum> GatherFromCache(const Scene& scene, const RayScene& rays,

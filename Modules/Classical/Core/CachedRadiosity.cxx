@@ -87,25 +87,17 @@ std::vector<uint8_t> LitSides(const FilledCache& filled, uint64_t seed, int64_t*
   return lit;
 }
 
-/// Rays begin at this many times the length that they skip away from other surfaces' edges: a
-/// surface nearer than that length does not block.
-constexpr float kClearance = 8;
-/// Nor further than this part of the way, so that small elements keep light apart.
-constexpr float kMostInward = 0.1f;
 /// Hits nearer than this part of an element are followed further: a cell is too coarse for them.
 constexpr double kNearby = 0.25;
 
-/// The receivers, drawn into their elements at least so far (m) that their rays leak through no
-/// surface that meets theirs.
+/// The receivers, drawn into their elements.
 std::vector<LightReceiver> GatherPoints(const UniformMesh& mesh, const UniformSolution& uniform,
-                                        float clearance) {
+                                        const RayScene& rays) {
   std::vector<LightReceiver> points(uniform.receivers.size());
   ParallelForEach(int64_t(points.size()), 1024, [&](int64_t i) {
     const ElementReceiver& at = uniform.receivers[size_t(i)];
-    const Vec3f inward = mesh.Centroid(at.element) - at.position;
-    const float distance = Length(inward);
-    const float share = distance > 0 ? std::min(kMostInward, clearance / distance) : 0;
-    points[size_t(i)] = {at.position + inward * share, at.normal, at.geometric};
+    points[size_t(i)] = {DrawnInward(at.position, mesh.Centroid(at.element), rays), at.normal,
+                         at.geometric};
   });
   return points;
 }
@@ -137,8 +129,7 @@ RadiositySolution SolveCachedRadiosity(const Scene& scene, const CachedRadiosity
   int64_t cast = 0;
   UniformSolution uniform = MakeUniformSolution(
       scene, mesh, LitSides({scene, rays, sources, cells, cache}, options.seed, &cast));
-  const std::vector<LightReceiver> points =
-      GatherPoints(mesh, uniform, kClearance * rays.Epsilon());
+  const std::vector<LightReceiver> points = GatherPoints(mesh, uniform, rays);
   CacheGatherOptions gather;
   gather.rays = options.gatherRays;
   gather.emitterRays = options.emitterRays;
