@@ -8,7 +8,7 @@ namespace lambert {
 
 /// Turns the emission of lamps that face nothing but a surface at no distance, to their other side.
 /// A lamp is the connected faces of a part that are of one material and emit from one side each;
-/// where they are wound both ways, those of either winding are judged as one. It is turned where
+/// those of either winding are judged for themselves. They are turned where
 ///  - straight ahead of each of at least 32 points, four or more a face, stratified by area, lies a
 ///    face that is not of the lamp, at no distance, and
 ///  - straight behind one of them there is none, not even in the lamp's own plane, and no face of
