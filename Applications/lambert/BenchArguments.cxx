@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "BenchMethods.h"
+
 namespace lambert {
 namespace {
 
@@ -93,13 +95,12 @@ void BenchArguments::Check() {
   samples = {4, 16};
   gatherRays = {16, 64};
   elementSizes = {0.2, 0.1};
-  longest = 2;
+  longest = convergenceSeconds = 1e6;  // What is run does not depend on the machine.
   vertices = std::min<int64_t>(vertices, 1000);
   reference.receivers = 200;
   reference.paths = 128;
   largest = 20000;
   tessellationError = convergenceError = 0.3;
-  convergenceSeconds = 2;
 }
 
 bool BenchArguments::Has(const std::string& study) const {
@@ -107,13 +108,12 @@ bool BenchArguments::Has(const std::string& study) const {
 }
 
 std::vector<double> BenchArguments::Values(const std::string& knob) const {
-  const bool moreIsFiner = knob == "samples" || knob == "gather_rays";
   std::vector<double> values = knob == "error"         ? errors
                                : knob == "samples"     ? samples
                                : knob == "gather_rays" ? gatherRays
                                                        : elementSizes;
   std::sort(values.begin(), values.end());
-  if (!moreIsFiner) std::reverse(values.begin(), values.end());
+  if (!IsFinerUpward(knob)) std::reverse(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
 }

@@ -69,9 +69,10 @@ LogAxis MakeAxis(double least, double most, ChartUnit unit) {
   const double padding = kPadding * std::max(0.3, std::log10(most / least));
   axis.low = std::log10(least) - padding;
   axis.high = std::log10(most) + padding;
-  // 1, 2, 5 on short axes; 1, 3 on longer ones; powers of ten on the longest.
+  // Many steps on short axes; 1, 2, 5; 1, 3 on longer ones; powers of ten on the longest.
   const double decades = axis.high - axis.low;
-  const std::vector<double> steps = decades < 2.6   ? std::vector<double>{1, 2, 5}
+  const std::vector<double> steps = decades < 1     ? std::vector<double>{1, 1.5, 2, 3, 4, 5, 7}
+                                    : decades < 2.6 ? std::vector<double>{1, 2, 5}
                                     : decades < 4.2 ? std::vector<double>{1, 3}
                                                     : std::vector<double>{1};
   for (int power = int(std::floor(axis.low)); power <= int(axis.high) + 1; ++power) {
@@ -232,7 +233,7 @@ class ChartWords : public vtkContextItem {
       for (const double left : {gap, -width / 2, -width - gap}) {
         const Vec2d low{end.x + left, end.y + (shift - 0.5) * height};
         const Area place{low, low + Vec2d(width, height)};
-        double cost = std::abs(shift) * 10 + (left < 0 ? 12 : 0);
+        double cost = std::abs(shift) * 20 + (left < 0 ? 12 : 0);
         for (const Area& other : taken) cost += place.Overlaps(other) ? kOverlapCost : 0;
         for (const auto& line : lines) cost += kPixelCost * LengthWithin(line, place) / scale_;
         if (place.high.x > kWidth * scale_ || place.low.x < 0) cost += kOverlapCost;

@@ -206,8 +206,7 @@ void DrawConvergence(const std::vector<BenchRow>& rows, const std::string& folde
                                              " is within 10 % after " + Format("%.2g s", slowest)
                                        : "What the user sees: the error falls as iterations end";
   chart.subtitle = {
-      "intermediate solutions of the hierarchical method, each with the time to "
-      "reconstruct it",
+      "intermediate solutions of the hierarchical method, reconstruction of each included; " +
       Format("%.0f threads", RowsOf(rows, "convergence", scenes[0])[0].threads)};
   chart.x = {"seconds from the loaded mesh until it is shown", ChartUnit::Seconds};
   chart.y = {"relative RMS error of irradiance", ChartUnit::Percent};

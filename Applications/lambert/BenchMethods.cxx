@@ -60,6 +60,8 @@ BenchOutcome RunProgressive(const Scene& scene, double size, uint64_t) {
 
 }  // namespace
 
+bool IsFinerUpward(const std::string& knob) { return knob == "samples" || knob == "gather_rays"; }
+
 const std::vector<BenchMethod>& BenchMethods() {
   static const std::vector<BenchMethod> methods{
       {"hierarchical", "hierarchical", "error", false, true,

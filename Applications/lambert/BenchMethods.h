@@ -28,6 +28,9 @@ struct BenchMethod {
   std::function<BenchOutcome(const Scene&, double knob, uint64_t seed)> run;
 };
 
+/// True for knobs of which more is finer: samples, gather_rays.
+bool IsFinerUpward(const std::string& knob);
+
 const std::vector<BenchMethod>& BenchMethods();
 /// Throws Error for a name that no method has.
 const BenchMethod& FindBenchMethod(const std::string& name);

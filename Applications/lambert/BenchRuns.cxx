@@ -1,6 +1,7 @@
 #include "BenchRuns.h"
 
 #include <malloc.h>
+#include <sys/resource.h>
 
 #include <cmath>
 #include <cstdio>
@@ -56,6 +57,13 @@ void Announce(const BenchRow& row) {
     std::printf("%.3g s, error %.2f %%\n", row.seconds, 100 * row.rms);
   }
   std::fflush(stdout);
+}
+
+double CpuSeconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 void ForgetPeakMemory() {

@@ -19,6 +19,9 @@ void EnterOutcome(const BenchOutcome& outcome, const BenchMethod& method, BenchR
 /// Says a row on stdout.
 void Announce(const BenchRow& row);
 
+/// Processor seconds of all threads of this process so far.
+double CpuSeconds();
+
 /// Gives back what earlier runs left, and makes PeakMemoryBytes() begin anew where the system can.
 void ForgetPeakMemory();
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "BenchMethods.h"
+
 namespace lambert {
 namespace {
 
@@ -11,7 +13,7 @@ void AddOnce(const std::string& name, std::vector<std::string>* names) {
   if (std::find(names->begin(), names->end(), name) == names->end()) names->push_back(name);
 }
 
-/// Medians of the rows with the same value.
+/// Medians of the rows with the same value, by ascending value.
 template <class Pick>
 std::vector<BenchPoint> MediansByValue(const std::vector<BenchRow>& rows, const Pick& pick) {
   std::map<double, std::vector<BenchRow>> byValue;
@@ -23,8 +25,6 @@ std::vector<BenchPoint> MediansByValue(const std::vector<BenchRow>& rows, const 
     curve.push_back({value, Median(group, &BenchRow::seconds), Median(group, &BenchRow::rms),
                      Median(group, &BenchRow::elements)});
   }
-  std::sort(curve.begin(), curve.end(),
-            [](const BenchPoint& a, const BenchPoint& b) { return a.seconds < b.seconds; });
   return curve;
 }
 
@@ -71,9 +71,11 @@ std::vector<std::string> MethodsOf(const std::vector<BenchRow>& rows, const std:
 
 std::vector<BenchPoint> SweepCurve(const std::vector<BenchRow>& rows, const std::string& scene,
                                    const std::string& method) {
-  return MediansByValue(rows, [&](const BenchRow& row) {
+  std::vector<BenchPoint> curve = MediansByValue(rows, [&](const BenchRow& row) {
     return row.study == "sweep" && row.scene == scene && row.method == method;
   });
+  if (!IsFinerUpward(FindBenchMethod(method).knob)) std::reverse(curve.begin(), curve.end());
+  return curve;
 }
 
 EqualError SecondsAtError(const std::vector<BenchPoint>& curve, double wanted, bool isMonteCarlo) {

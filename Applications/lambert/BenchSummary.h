@@ -34,7 +34,7 @@ struct EqualError {
 std::vector<std::string> ScenesOf(const std::vector<BenchRow>& rows, const std::string& study);
 std::vector<std::string> MethodsOf(const std::vector<BenchRow>& rows, const std::string& scene);
 
-/// The sweep of one method on one scene, by ascending seconds; failed runs are left out.
+/// The sweep of one method on one scene, coarse runs first; failed ones are left out.
 std::vector<BenchPoint> SweepCurve(const std::vector<BenchRow>& rows, const std::string& scene,
                                    const std::string& method);
 

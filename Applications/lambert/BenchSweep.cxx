@@ -49,7 +49,9 @@ class Sweep {
     try {
       const Scene& scene = method.meshesByItself ? scene_.Coarsest() : scene_.scene;
       const uint64_t seed = HashBits(arguments_.seed, uint64_t(run));
+      const double cpuBefore = CpuSeconds();
       const BenchOutcome outcome = method.run(scene, value, seed);
+      row.cpu = CpuSeconds() - cpuBefore;
       EnterOutcome(outcome, method, &row);
       row.SetError(MeasureAtReceivers(scene_, reference_, outcome.solution, method.meshesByItself));
     } catch (const std::bad_alloc&) {

@@ -35,6 +35,7 @@ const std::vector<Column>& Columns() {
       {"threads", &BenchRow::threads},
       {"load", &BenchRow::load},
       {"seconds", &BenchRow::seconds},
+      {"cpu_s", &BenchRow::cpu},
       {"clustering_s", &BenchRow::clustering},
       {"setup_s", &BenchRow::setup},
       {"bvh_s", &BenchRow::bvh},

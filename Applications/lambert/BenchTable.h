@@ -28,6 +28,7 @@ struct BenchRow {
 
   // Time: from the loaded mesh on to the light at the vertices, and its stages.
   double seconds = kUnknown;
+  double cpu = kUnknown;  ///< of all threads; on a busy machine steadier than wall time
   double clustering = kUnknown, setup = kUnknown, iterations = kUnknown, reconstruction = kUnknown;
   double bvh = kUnknown;     ///< a bounding volume hierarchy of the scene, built apart
   double output = kUnknown;  ///< writing a .vtp; not part of `seconds`

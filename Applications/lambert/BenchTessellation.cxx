@@ -36,7 +36,9 @@ BenchRow RunTessellation(const BenchArguments& arguments, int64_t triangles, int
 
   // The light, its stages, and what a bounding volume hierarchy takes of the setup.
   ForgetPeakMemory();
+  const double cpuBefore = CpuSeconds();
   const BenchOutcome outcome = RunHierarchical(bench.scene, arguments.tessellationError);
+  row.cpu = CpuSeconds() - cpuBefore;
   EnterOutcome(outcome, method, &row);
   const Timer timer;
   { const RayScene rays(bench.scene.mesh); }
