@@ -119,7 +119,7 @@ void SolveArguments::AddTo(CLI::App* command) {
       ->capture_default_str();
   command
       ->add_option("--element-size", elementSize,
-                   "Matrix, cached: longest edge, m; 0: 1/50 of the scene's diagonal")
+                   "Matrix, progressive, cached: longest edge, m; 0: 1/50 of the scene's diagonal")
       ->check(NotNegative())
       ->capture_default_str();
   command->add_option("--paths", method.cached.paths, "Cached: paths an element's side")
@@ -129,6 +129,7 @@ void SolveArguments::AddTo(CLI::App* command) {
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command->add_option("--seed", seed, "Reference, cached: another seed, another choice of paths")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("--error", solver.error, "Wanted relative RMS error of irradiance, (0, 1]")
       ->check(Within(1e-6, 1, "from 1e-6 to 1"))
@@ -252,7 +253,9 @@ RadiosityRunOptions SolveArguments::RunOptions() const {
   RadiosityRunOptions options;
   scene.Apply(&options);
   options.method = method;
-  options.method.matrix.elementSize = options.method.cached.elementSize = elementSize;
+  options.method.matrix.elementSize = elementSize;
+  options.method.progressive.elementSize = elementSize;
+  options.method.cached.elementSize = elementSize;
   options.method.reference.seed = options.method.cached.seed = seed;
   options.solver = solver;
   options.timeLimit = time;

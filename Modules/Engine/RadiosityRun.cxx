@@ -123,7 +123,7 @@ void RadiosityRun::Cluster(const ProgressCallback& progress) {
 void RadiosityRun::Solve(const ProgressCallback& progress, const std::function<bool()>& interrupted,
                          const std::function<void(const IterationRecord&)>& observer) {
   if (this->options_.method.method != SolveMethod::Hierarchical) {
-    this->SolveInOnePass(progress);
+    this->SolveByMethod(progress, observer);
     return;
   }
 
@@ -160,10 +160,11 @@ void RadiosityRun::Solve(const ProgressCallback& progress, const std::function<b
   this->AddStage("reconstruct", timer.Seconds());
 }
 
-void RadiosityRun::SolveInOnePass(const ProgressCallback& progress) {
+void RadiosityRun::SolveByMethod(const ProgressCallback& progress,
+                                 const std::function<void(const IterationRecord&)>& observer) {
   Timer timer;
-  this->solution_ =
-      lambert::SolveInOnePass(this->scene_, this->options_.method, &this->statistics_, progress);
+  this->solution_ = lambert::SolveByMethod(this->scene_, this->options_.method, &this->statistics_,
+                                           progress, observer);
   this->AddStage("solve", timer.Seconds());
 }
 

@@ -46,8 +46,8 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   void Cluster(const ProgressCallback& progress = {});
   /// Solves until the request is met, until another iteration and the output would not fit into the
   /// time limit, or until `interrupted` says so; all end at the border of an iteration. `observer`
-  /// hears of every iteration. Another method than Hierarchical runs through; it is cancelled by
-  /// `progress`. Throws Error, Cancelled.
+  /// hears of every iteration. Another method than Hierarchical is ended by `progress`. Throws
+  /// Error, Cancelled.
   void Solve(const ProgressCallback& progress = {}, const std::function<bool()>& interrupted = {},
              const std::function<void(const IterationRecord&)>& observer = {});
   /// Measures how far the solution is from a path-traced reference at `points` points.
@@ -70,7 +70,8 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   void AddStage(const std::string& name, double seconds);
 
  private:
-  void SolveInOnePass(const ProgressCallback& progress);
+  void SolveByMethod(const ProgressCallback& progress,
+                     const std::function<void(const IterationRecord&)>& observer);
 
   RadiosityRunOptions options_;
   Scene scene_;

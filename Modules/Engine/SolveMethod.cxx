@@ -10,6 +10,7 @@ const std::vector<SolveMethodTraits>& SolveMethods() {
       {SolveMethod::Hierarchical, "hierarchical", {"--error", "--time", "--iterations"}},
       {SolveMethod::Reference, "reference", {"--samples", "--seed"}},
       {SolveMethod::Matrix, "matrix", {"--element-size"}},
+      {SolveMethod::Progressive, "progressive", {"--element-size"}},
       {SolveMethod::Cached, "cached", {"--element-size", "--paths", "--gather-rays", "--seed"}},
   };
   return methods;
@@ -27,6 +28,8 @@ std::vector<std::pair<std::string, double>> ValuesOf(const SolveMethodOptions& o
               {"seed", static_cast<double>(options.reference.seed)}};
     case SolveMethod::Matrix:
       return {{"element_size", options.matrix.elementSize}};
+    case SolveMethod::Progressive:
+      return {{"element_size", options.progressive.elementSize}};
     case SolveMethod::Cached:
       return {{"element_size", options.cached.elementSize},
               {"paths", options.cached.paths},
@@ -38,18 +41,37 @@ std::vector<std::pair<std::string, double>> ValuesOf(const SolveMethodOptions& o
   return {};
 }
 
-RadiositySolution SolveInOnePass(const Scene& scene, const SolveMethodOptions& options,
-                                 SolverStatistics* statistics, const ProgressCallback& progress) {
+namespace {
+RadiositySolution SolveProgressively(const Scene& scene, const ProgressiveRadiosityOptions& options,
+                                     SolverStatistics* statistics, const ProgressCallback& progress,
+                                     const std::function<void(const IterationRecord&)>& observer) {
+  ProgressiveRadiosity solver(scene, options);
+  solver.Run(progress, [&](const IterationRecord& record) {
+    if (observer) {
+      observer(record);
+    }
+    return true;
+  });
+  *statistics = solver.Statistics();
+  return solver.Solution();
+}
+}  // namespace
+
+RadiositySolution SolveByMethod(const Scene& scene, const SolveMethodOptions& options,
+                                SolverStatistics* statistics, const ProgressCallback& progress,
+                                const std::function<void(const IterationRecord&)>& observer) {
   switch (options.method) {
     case SolveMethod::Reference:
       return BakePathTraced(scene, options.reference, statistics, progress);
     case SolveMethod::Matrix:
       return SolveMatrixRadiosity(scene, options.matrix, statistics, progress);
+    case SolveMethod::Progressive:
+      return SolveProgressively(scene, options.progressive, statistics, progress, observer);
     case SolveMethod::Cached:
       return SolveCachedRadiosity(scene, options.cached, statistics, progress);
     case SolveMethod::Hierarchical:
       break;
   }
-  throw Error("Hierarchical radiosity is solved iteration by iteration, not in one pass.");
+  throw Error("Hierarchical radiosity is solved by RadiosityRun itself.");
 }
 }  // namespace lambert
