@@ -3,7 +3,7 @@ import lambert
 
 cell = ["Reflectance", "Emittance", "FaceFlags", "SurfaceId", "MaterialId", "PartId", "SourceCellId", "InputFaceId",
         "Side", "ClusterId", "LeafId"]
-point = ["Irradiance", "Radiosity", "IrradianceVector"]
+point = ["Irradiance", "Radiosity", "IrradianceVector", "StandardError", "GeometricNormals"]
 for name in cell + point:
     assert getattr(lambert.vtkRadiosityArrays, name)() == name
 tables = {"Material": ["Name", "Reflectance", "Emittance", "TwoSidedEmitter"],
