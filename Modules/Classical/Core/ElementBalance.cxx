@@ -86,7 +86,7 @@ void SideLight::GatherLights(const Scene& scene, const ElementSides& sides,
     const size_t side = size_t(i);
     const ExchangeTriangle& triangle = sides.triangles[side];
     for (int place = 0; place < kPlacesPerElement; ++place) {
-      const LightReceiver at{triangle.Place(place), triangle.normal, triangle.normal};
+      const LightReceiver at{sides.samples[side][size_t(place)], triangle.normal, triangle.normal};
       const uint64_t seed = HashBits(uint64_t(i), uint64_t(place));
       fromLamps[side] += lights.FromLamps(at, &cast[side]) / kPlacesPerElement;
       fromFar[side] += lights.FromFar(at, skyRaysPerPlace, seed, &cast[side]) / kPlacesPerElement;

@@ -2,12 +2,31 @@
 
 #include <algorithm>
 
+#include "Common/Core/Random.h"
+
 namespace lambert {
 
 namespace {
 constexpr int kGroupSize = 8;
 /// A face of as many elements begins a group of its own, so that groups are flat where they can be.
 constexpr int64_t kOwnGroup = 4;
+
+std::array<Vec3f, kPlacesPerElement> SamplesOn(const ExchangeTriangle& triangle, int32_t key) {
+  const auto& [a, b, c] = triangle.corners;
+  const Vec3f ab = (a + b) * 0.5f, bc = (b + c) * 0.5f, ca = (c + a) * 0.5f;
+  const std::array<std::array<Vec3f, 3>, kPlacesPerElement> parts{
+      {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {bc, ca, ab}}};
+  std::array<Vec3f, kPlacesPerElement> samples;
+  Random random(HashBits(uint64_t(key), 0x73616d70ull));
+  for (size_t part = 0; part < parts.size(); ++part) {
+    const float u = random.Uniform(), v = random.Uniform();
+    const Vec2f weights = UniformTriangle(u, v);
+    const auto& [p, q, r] = parts[part];
+    samples[part] = p + (q - p) * weights.x + (r - p) * weights.y;
+  }
+  return samples;
+}
+
 }  // namespace
 
 ElementSides CollectElementSides(const Scene& scene, const UniformMesh& mesh,
@@ -33,6 +52,7 @@ ElementSides CollectElementSides(const Scene& scene, const UniformMesh& mesh,
         if (sides.groupBegin.empty() || isFull || isOwn) sides.groupBegin.push_back(index);
         sides.triangles.push_back(triangle);
         sides.key.push_back(int32_t(2 * element + side));
+        sides.samples.push_back(SamplesOn(triangle, sides.key.back()));
         sides.reflectance.push_back(scene.mesh.reflectance[face]);
         sides.emittance.push_back(emits ? scene.mesh.emittance[face] : Spectrum());
       }

@@ -1,6 +1,7 @@
 // The sides of elements that exchange light.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace lambert {
 /// The modelled sides of all elements that have an area, in the order of the elements.
 struct ElementSides {
   std::vector<ExchangeTriangle> triangles;
+  /// Where visibility is tried from: a random place in each of the four parts of a triangle, so
+  /// that no ray runs along the edges of things that are aligned with the elements.
+  std::vector<std::array<Vec3f, kPlacesPerElement>> samples;
   std::vector<int32_t> key;  ///< 2 element + side
   std::vector<Spectrum> reflectance;
   std::vector<Spectrum> emittance;  ///< W/m2

@@ -99,8 +99,9 @@ class GroupPair {
         int(HashBits(uint64_t(pair.row), uint64_t(pair.column)) % uint64_t(kPlacesPerElement));
     for (int k = 0; k < kPlacePairs && wanted > 0; ++k) {
       const int place = k % kPlacesPerElement;
-      const Vec3f from = a.Place(place);
-      const Vec3f to = b.Place((place + k / kPlacesPerElement + turn) % kPlacesPerElement);
+      const int other = (place + k / kPlacesPerElement + turn) % kPlacesPerElement;
+      const Vec3f& from = sides_.samples[size_t(pair.row)][size_t(place)];
+      const Vec3f& to = sides_.samples[size_t(pair.column)][size_t(other)];
       const Vec3f direction = to - from;
       if (Dot(direction, a.normal) <= 0 || Dot(direction, b.normal) >= 0) continue;
       segments_.push_back({from, to});

@@ -38,8 +38,8 @@ class LightSeeker {
         return true;
       }
       if (scene_.mesh.reflectance[size_t(hit.face)].IsBlack()) return false;
-      at.position = at.position + direction * hit.distance;
       at.normal = at.geometric = side == kFront ? front : -front;
+      at.position = at.position + direction * hit.distance + at.normal * rayScene_.Epsilon();
     }
     return false;
   }
@@ -50,14 +50,16 @@ class LightSeeker {
   const SourceLight& sources_;
 };
 
-/// A random place on one side of an element.
-LightReceiver PlaceOn(const UniformMesh& mesh, int64_t element, Side side, Random* random) {
+/// A random place on one side of an element, clear of its neighbours' rounding.
+LightReceiver PlaceOn(const UniformMesh& mesh, int64_t element, Side side, float clearance,
+                      Random* random) {
   const Vec2f b = UniformTriangle(random->Uniform(), random->Uniform());
   const Vec3f& p = mesh.Corner(element, 0);
   LightReceiver at;
   at.position = p + (mesh.Corner(element, 1) - p) * b.x + (mesh.Corner(element, 2) - p) * b.y;
   at.normal = Normalize(mesh.VectorArea(element)) * (side == kBack ? -1.f : 1.f);
   at.geometric = at.normal;
+  at.position += at.normal * clearance;
   return at;
 }
 
@@ -89,7 +91,7 @@ std::vector<uint8_t> FindLitFaces(const Scene& scene, const UniformMesh& mesh,
       const int64_t paths = std::max(kPathsPerSide, elements);
       for (int64_t path = 0; path < paths && !isLit; ++path) {
         const int64_t element = first[f] + path * 7919 % elements;
-        const LightReceiver at = PlaceOn(mesh, element, side, &random);
+        const LightReceiver at = PlaceOn(mesh, element, side, rayScene.Epsilon(), &random);
         if (LengthSquared(at.normal) == 0) continue;
         isLit = seeker.FindsLight(at, &random, &cast[f]);
       }

@@ -13,6 +13,9 @@ constexpr int64_t kGroup = 8;  ///< receivers that share a shaft
 /// Nearer than this many radii of its circle, a triangle is cut in four.
 constexpr float kNear = 3;
 constexpr int kMaximumCuts = 2;
+/// Cosine of normals below which a facet and a shooter at no distance are the two sides of one
+/// sheet, which do not see each other.
+constexpr float kBackToBack = -0.999f;
 
 std::vector<std::vector<Vec3f>> Groups(const std::vector<ElementReceiver>& receivers,
                                        const std::vector<ExchangeTriangle>& shooters) {
@@ -43,13 +46,17 @@ void PointFormFactors::ToShooter(int32_t shooter, std::vector<PointFormFactor>* 
   const int64_t points = int64_t(receivers_.size()), groups = (points + kGroup - 1) / kGroup;
   std::vector<int64_t> cast(size_t(groups), 0);
   factors->assign(receivers_.size(), {});
+  const float clearance = rayScene_.Epsilon();
   ParallelForEach(groups, 8, [&](int64_t group) {
     ShaftBlockers::Faces faces;
     bool hasFaces = false;
     for (int64_t p = group * kGroup; p < std::min(points, (group + 1) * kGroup); ++p) {
       // Does the point see the front of the shooter, and the shooter rise above its horizon?
       const ElementReceiver& receiver = receivers_[size_t(p)];
-      if (Dot(receiver.position - triangle.centroid, triangle.normal) <= 0) continue;
+      const float height = Dot(receiver.position - triangle.centroid, triangle.normal);
+      if (height <= (Dot(receiver.geometric, triangle.normal) < kBackToBack ? clearance : 0)) {
+        continue;
+      }
       const bool rises =
           std::any_of(triangle.corners.begin(), triangle.corners.end(), [&](const Vec3f& corner) {
             return Dot(corner - receiver.position, receiver.geometric) > 0;
