@@ -1,6 +1,7 @@
 #include "BenchMethods.h"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
 #include "Classical/Core/CachedRadiosity.h"
@@ -25,37 +26,44 @@ BenchOutcome TimeOneStage(const Solve& solve) {
   return outcome;
 }
 
-BenchOutcome RunPathTracedBake(const Scene& scene, double samples, uint64_t seed) {
+BenchOutcome RunPathTracedBake(const Scene& scene, double samples, uint64_t seed,
+                               const ProgressCallback& progress) {
   PathTracedBakeOptions options;
   options.samples = int(samples);
   options.seed = seed;
-  return TimeOneStage([&](SolverStatistics* s) { return BakePathTraced(scene, options, s); });
+  return TimeOneStage(
+      [&](SolverStatistics* s) { return BakePathTraced(scene, options, s, progress); });
 }
 
-BenchOutcome RunCached(const Scene& scene, double gatherRays, uint64_t seed) {
+BenchOutcome RunCached(const Scene& scene, double gatherRays, uint64_t seed,
+                       const ProgressCallback& progress) {
   // Cells of the usual size; their paths and the rays to emitters grow with the gather rays.
   CachedRadiosityOptions options;
   options.gatherRays = options.paths = int(gatherRays);
   options.emitterRays = std::max(1, int(gatherRays) / 4);
   options.seed = seed;
-  return TimeOneStage([&](SolverStatistics* s) { return SolveCachedRadiosity(scene, options, s); });
+  return TimeOneStage(
+      [&](SolverStatistics* s) { return SolveCachedRadiosity(scene, options, s, progress); });
 }
 
 double ElementSize(const Scene& scene, double fraction) {
   return fraction * double(scene.mesh.Bounds().Diagonal());
 }
 
-BenchOutcome RunMatrix(const Scene& scene, double size, uint64_t) {
+BenchOutcome RunMatrix(const Scene& scene, double size, uint64_t,
+                       const ProgressCallback& progress) {
   MatrixRadiosityOptions options;
   options.elementSize = ElementSize(scene, size);
-  return TimeOneStage([&](SolverStatistics* s) { return SolveMatrixRadiosity(scene, options, s); });
+  return TimeOneStage(
+      [&](SolverStatistics* s) { return SolveMatrixRadiosity(scene, options, s, progress); });
 }
 
-BenchOutcome RunProgressive(const Scene& scene, double size, uint64_t) {
+BenchOutcome RunProgressive(const Scene& scene, double size, uint64_t,
+                            const ProgressCallback& progress) {
   ProgressiveRadiosityOptions options;
   options.elementSize = ElementSize(scene, size);
   return TimeOneStage(
-      [&](SolverStatistics* s) { return SolveProgressiveRadiosity(scene, options, s); });
+      [&](SolverStatistics* s) { return SolveProgressiveRadiosity(scene, options, s, progress); });
 }
 
 }  // namespace
@@ -65,7 +73,9 @@ bool IsFinerUpward(const std::string& knob) { return knob == "samples" || knob =
 const std::vector<BenchMethod>& BenchMethods() {
   static const std::vector<BenchMethod> methods{
       {"hierarchical", "hierarchical", "error", false, true,
-       [](const Scene& scene, double error, uint64_t) { return RunHierarchical(scene, error); }},
+       [](const Scene& scene, double error, uint64_t, const ProgressCallback& progress) {
+         return RunHierarchical(scene, error, {}, progress);
+       }},
       {"reference", "path-traced bake", "samples", false, false, RunPathTracedBake},
       {"cached", "path-traced cache", "gather_rays", false, true, RunCached},
       {"matrix", "matrix", "size", true, true, RunMatrix},
@@ -83,7 +93,8 @@ const BenchMethod& FindBenchMethod(const std::string& name) {
   throw Error("There is no method \"" + name + "\"; there are " + names + ".");
 }
 
-BenchOutcome RunHierarchical(const Scene& scene, double error, const ShownObserver& shown) {
+BenchOutcome RunHierarchical(const Scene& scene, double error, const ShownObserver& shown,
+                             const ProgressCallback& progress) {
   // The numbers of the faces ride along, for the way back from tree order.
   Scene clustered = scene;
   std::iota(clustered.mesh.sourceCellId.begin(), clustered.mesh.sourceCellId.end(), 0);
@@ -95,7 +106,7 @@ BenchOutcome RunHierarchical(const Scene& scene, double error, const ShownObserv
 
   BenchOutcome outcome;
   Timer timer;
-  const ClusterTree tree = ClusterFaces(&clustered.mesh, clustered.parts);
+  const ClusterTree tree = ClusterFaces(&clustered.mesh, clustered.parts, {}, nullptr, progress);
   outcome.clustering = timer.Seconds();
 
   timer.Restart();
@@ -107,7 +118,12 @@ BenchOutcome RunHierarchical(const Scene& scene, double error, const ShownObserv
   // What is shown between iterations takes its reconstruction; hearing of it takes no time.
   timer.Restart();
   double hearing = 0;
-  solver.Run({}, [&](const IterationRecord& record) {
+  std::atomic<bool> wasCut{false};  // Progress may be told by any thread.
+  const ProgressCallback watched = [&](double fraction, const char* stage) {
+    if (!Report(progress, fraction, stage)) wasCut = true;
+    return !wasCut;
+  };
+  solver.Run(watched, [&](const IterationRecord& record) {
     if (!shown) return true;
     RadiositySolution solution = solver.Solution();
     const double seconds = timer.Seconds() - hearing;
@@ -118,6 +134,7 @@ BenchOutcome RunHierarchical(const Scene& scene, double error, const ShownObserv
     return goOn;
   });
   outcome.iterations = timer.Seconds() - hearing;
+  if (wasCut) throw Cancelled();
 
   timer.Restart();
   outcome.solution = solver.Solution();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "Common/Core/Progress.h"
 #include "Scene/Core/RadiositySolution.h"
 #include "Scene/Core/Scene.h"
 
@@ -25,7 +26,10 @@ struct BenchMethod {
   const char* knob;     ///< error, samples, gather_rays, or size (fraction of the diagonal)
   bool meshesByItself;  ///< takes the scene before it was tessellated
   bool hasElements;     ///< models the scene by elements
-  std::function<BenchOutcome(const Scene&, double knob, uint64_t seed)> run;
+  /// Throws Error, and Cancelled where `progress` asked for it.
+  std::function<BenchOutcome(const Scene&, double knob, uint64_t seed,
+                             const ProgressCallback& progress)>
+      run;
 };
 
 /// True for knobs of which more is finer: samples, gather_rays.
@@ -40,7 +44,8 @@ const BenchMethod& FindBenchMethod(const std::string& name);
 using ShownObserver =
     std::function<bool(double seconds, const IterationRecord&, const RadiositySolution&)>;
 
-/// Hierarchical radiosity of `scene`, with the wanted error `error`.
-BenchOutcome RunHierarchical(const Scene& scene, double error, const ShownObserver& shown = {});
+/// Hierarchical radiosity of `scene`, with the wanted error `error`. Throws Cancelled.
+BenchOutcome RunHierarchical(const Scene& scene, double error, const ShownObserver& shown = {},
+                             const ProgressCallback& progress = {});
 
 }  // namespace lambert

@@ -5,9 +5,13 @@
 #include "BenchRuns.h"
 #include "BenchStudies.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/Timer.h"
 
 namespace lambert {
 namespace {
+
+/// A run that takes so many times as long as it was expected to take at most is cut off.
+constexpr double kOverrun = 2;
 
 /// One method on its way from coarse to fine.
 struct MethodSweep {
@@ -50,12 +54,17 @@ class Sweep {
       const Scene& scene = method.meshesByItself ? scene_.Coarsest() : scene_.scene;
       const uint64_t seed = HashBits(arguments_.seed, uint64_t(run));
       const double cpuBefore = CpuSeconds();
-      const BenchOutcome outcome = method.run(scene, value, seed);
+      const Timer timer;
+      const BenchOutcome outcome = method.run(scene, value, seed, [&](double, const char*) {
+        return timer.Seconds() < kOverrun * arguments_.longest;
+      });
       row.cpu = CpuSeconds() - cpuBefore;
       EnterOutcome(outcome, method, &row);
       row.SetError(MeasureAtReceivers(scene_, reference_, outcome.solution, method.meshesByItself));
     } catch (const std::bad_alloc&) {
       row.note = "The memory does not suffice.";
+    } catch (const Cancelled&) {
+      row.note = "Cut off: it took longer than " + std::to_string(int(kOverrun)) + " x --longest.";
     } catch (const Error& error) {
       row.note = error.what();
     }
