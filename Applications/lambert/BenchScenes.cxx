@@ -42,56 +42,90 @@ struct DividedEdge {
   bool reversed_;
 };
 
-/// Grid of one face: rows from corner 0 to the opposite edge.
+/// Rows of points over one face, from the corner between its longer edges to its shortest edge.
 class FaceGrid {
  public:
   FaceGrid(const TriangleMesh& mesh, int64_t face, float length)
       : mesh_(mesh),
-        corners_(mesh.triangles[size_t(face)]),
-        edges_{DividedEdge(mesh, corners_[0], corners_[1], length),
-               DividedEdge(mesh, corners_[1], corners_[2], length),
-               DividedEdge(mesh, corners_[0], corners_[2], length)},
-        steps_(std::max({edges_[0].parts, edges_[1].parts, edges_[2].parts})) {}
+        corners_(FromLongestEdges(mesh, face)),
+        left_(mesh, corners_[0], corners_[1], length),
+        last_(mesh, corners_[1], corners_[2], length),
+        right_(mesh, corners_[0], corners_[2], length),
+        rows_(std::max(left_.parts, right_.parts)) {}
+
+  /// About as many points as AppendTo makes.
+  double PointEstimate() const { return 0.5 * (rows_ + 1.0) * (last_.parts + 2.0); }
 
   /// Appends points and triangles; returns how many triangles.
   int AppendTo(TriangleMesh* mesh) const {
-    const int32_t first = int32_t(mesh->positions.size());
-    for (int row = 0; row <= steps_; ++row) {
-      for (int column = 0; column <= row; ++column) AppendPoint(row, column, mesh);
-    }
+    int32_t above = int32_t(mesh->positions.size());
+    AppendPoint(0, 0, mesh);
     int count = 0;
-    const auto index = [&](int row, int column) { return first + row * (row + 1) / 2 + column; };
-    for (int row = 0; row < steps_; ++row) {
-      for (int column = 0; column <= row; ++column) {
-        const int32_t a = index(row, column), b = index(row + 1, column),
-                      c = index(row + 1, column + 1);
-        count += AppendTriangle({a, b, c}, mesh);
-        if (column < row) count += AppendTriangle({a, c, index(row, column + 1)}, mesh);
-      }
+    for (int row = 1; row <= rows_; ++row) {
+      const int32_t below = int32_t(mesh->positions.size());
+      for (int column = 0; column <= Parts(row); ++column) AppendPoint(row, column, mesh);
+      count += AppendStrip(above, Parts(row - 1), below, Parts(row), mesh);
+      above = below;
     }
     return count;
   }
 
  private:
+  static std::array<int32_t, 3> FromLongestEdges(const TriangleMesh& mesh, int64_t face) {
+    std::array<int32_t, 3> corners = mesh.triangles[size_t(face)];
+    int shortest = 0;
+    const auto length = [&](int edge) {
+      return Length(mesh.Corner(face, (edge + 1) % 3) - mesh.Corner(face, edge));
+    };
+    for (int edge = 1; edge < 3; ++edge) {
+      if (length(edge) < length(shortest)) shortest = edge;
+    }
+    std::rotate(corners.begin(), corners.begin() + (shortest + 2) % 3, corners.end());
+    return corners;
+  }
+
+  /// Parts of a row: as wide there as those of the last one.
+  int Parts(int row) const { return int((int64_t(last_.parts) * row + rows_ - 1) / rows_); }
+
   void AppendPoint(int row, int column, TriangleMesh* mesh) const {
     Vec3f position, normal;
     if (column == 0) {
-      edges_[0].PointNear(row, steps_, &position, &normal);
-    } else if (column == row) {
-      edges_[2].PointNear(row, steps_, &position, &normal);
-    } else if (row == steps_) {
-      edges_[1].PointNear(column, steps_, &position, &normal);
+      left_.PointNear(row, rows_, &position, &normal);
+    } else if (column == Parts(row)) {
+      right_.PointNear(row, rows_, &position, &normal);
+    } else if (row == rows_) {
+      last_.PointNear(column, last_.parts, &position, &normal);
     } else {
-      const float c = float(column) / float(steps_), b = float(row) / float(steps_) - c;
+      const float down = float(row) / float(rows_), across = float(column) / float(Parts(row));
       const auto blend = [&](const std::vector<Vec3f>& values) {
-        return values[size_t(corners_[0])] * (1 - b - c) + values[size_t(corners_[1])] * b +
-               values[size_t(corners_[2])] * c;
+        return values[size_t(corners_[0])] * (1 - down) +
+               values[size_t(corners_[1])] * (down * (1 - across)) +
+               values[size_t(corners_[2])] * (down * across);
       };
       position = blend(mesh_.positions);
       normal = Normalize(blend(mesh_.normals));
     }
     mesh->positions.push_back(position);
     mesh->normals.push_back(normal);
+  }
+
+  /// Joins two rows, always from the end that lags behind.
+  static int AppendStrip(int32_t above, int64_t aboveParts, int32_t below, int64_t belowParts,
+                         TriangleMesh* mesh) {
+    int count = 0;
+    int32_t i = 0, j = 0;
+    while (i < aboveParts || j < belowParts) {
+      const int32_t a = above + i, b = below + j;
+      const bool belowLags = (2 * j + 1) * aboveParts <= (2 * i + 1) * belowParts;
+      if (j < belowParts && (i == aboveParts || belowLags)) {
+        count += AppendTriangle({a, b, b + 1}, mesh);
+        ++j;
+      } else {
+        count += AppendTriangle({a, b, a + 1}, mesh);
+        ++i;
+      }
+    }
+    return count;
   }
 
   /// Leaves out what has no area: steps beside an edge of fewer parts.
@@ -103,9 +137,9 @@ class FaceGrid {
   }
 
   const TriangleMesh& mesh_;
-  std::array<int32_t, 3> corners_;
-  DividedEdge edges_[3];
-  int steps_;
+  std::array<int32_t, 3> corners_;  ///< the edge between the last two is the shortest
+  DividedEdge left_, last_, right_;
+  int rows_;
 };
 
 Scene Tessellate(const Scene& scene, float length, std::vector<int32_t>* source) {
@@ -230,18 +264,21 @@ BenchScene LoadBenchScene(const std::string& file, const SceneArguments& reading
 
 Scene TessellateRegularly(const Scene& scene, int64_t vertices, std::vector<int32_t>* source) {
   // The longest parts that give no fewer points than wanted.
-  constexpr int kHalvings = 20;  // Parts in a million of the length: finer than a point's worth.
+  constexpr int kHalvings = 20;           // A part in a hundred thousand of the length.
+  constexpr double kCertainlyEnough = 8;  // So many times the points before equal ones are joined.
+  const auto isEnough = [&](float length) {
+    double estimate = 0;
+    for (int64_t face = 0; face < scene.mesh.FaceCount(); ++face) {
+      estimate += FaceGrid(scene.mesh, face, length).PointEstimate();
+    }
+    return estimate > kCertainlyEnough * double(vertices) ||
+           Tessellate(scene, length, source).mesh.PointCount() >= vertices;
+  };
   const float diagonal = scene.mesh.Bounds().Diagonal();
   double shortest = std::log(1e-4 * diagonal), longest = std::log(diagonal);
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (shortest + longest) / 2;
-    // The square of the length is an area: far too short ones need no trial.
-    const double length = std::exp(middle);
-    double area = 0;
-    for (int64_t f = 0; f < scene.mesh.FaceCount(); ++f) area += scene.mesh.Area(f);
-    const bool enough = area / (length * length) > 4 * double(vertices) ||
-                        Tessellate(scene, float(length), source).mesh.PointCount() >= vertices;
-    (enough ? shortest : longest) = middle;
+    (isEnough(float(std::exp(middle))) ? shortest : longest) = middle;
   }
   return Tessellate(scene, float(std::exp(shortest)), source);
 }
