@@ -15,11 +15,52 @@ namespace {
 
 using Vertex = ReferenceVertex;
 
-/// Additive recurrences after the generalized golden ratio (Roberts 2018) of 2 and 3 dimensions.
-constexpr double kPlane[2] = {0.7548776662466927, 0.5698402909980532};
-constexpr double kSpace[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
-
 double Fraction(double x) { return x - std::floor(x); }
+
+/// Numbers in [0,1) that decide about one bounce of a path.
+struct BounceNumbers {
+  double roulette;
+  double emitter[3];    ///< the place on an emitter
+  double direction[2];  ///< the ray that goes on
+};
+
+BounceNumbers RandomBounce(Random* random) {
+  BounceNumbers bounce;
+  bounce.roulette = random->UniformDouble();
+  for (double& u : bounce.emitter) u = random->UniformDouble();
+  for (double& u : bounce.direction) u = random->UniformDouble();
+  return bounce;
+}
+
+/// What decides about the receiver and the first bounce of its paths: additive recurrences under
+/// random shifts, so that the paths of one receiver spread evenly.
+class PathPointSet {
+ public:
+  explicit PathPointSet(uint64_t seed) {
+    Random random(seed);
+    for (double& shift : shifts_) shift = random.UniformDouble();
+  }
+  /// Without roulette: a receiver receives.
+  BounceNumbers AtReceiver(int path) const {
+    return {0, {At(path, 0), At(path, 1), At(path, 2)}, {At(path, 3), At(path, 4)}};
+  }
+  BounceNumbers AtFirstBounce(int path) const {
+    return {At(path, 5), {At(path, 6), At(path, 7), At(path, 8)}, {At(path, 9), At(path, 10)}};
+  }
+
+ private:
+  double At(int path, size_t dimension) const {
+    // The generalized golden ratios of 3 and 2 dimensions (Roberts 2018) at the receiver; fractions
+    // of the square roots of primes (Richtmyer 1951) at the bounce.
+    static constexpr double kSteps[11] = {
+        0.8191725133961645, 0.6710436067037893, 0.5497004779019703, 0.7548776662466927,
+        0.5698402909980532, 0.3166247903553998, 0.4142135623730950, 0.7320508075688772,
+        0.2360679774997897, 0.6457513110645906, 0.6055512754639893};
+    return Fraction(shifts_[dimension] + path * kSteps[dimension]);
+  }
+
+  double shifts_[11];
+};
 
 /// Power heuristic of multiple importance sampling (Veach 1997, equation 9.13 with exponent 2).
 float PowerHeuristic(float density, float other) {
@@ -62,8 +103,8 @@ struct PathTracedIrradiance::Implementation {
                                 const PathTracedIrradianceOptions& options) const;
   std::array<double, 3> SumOfPaths(const Vertex& receiver, uint64_t seed, PathRange paths,
                                    int maximumDepth, int64_t* rayCount) const;
-  Spectrum Path(const Vertex& receiver, const double u[2], int maximumDepth, Random* random,
-                int64_t* rayCount) const;
+  Spectrum Path(const Vertex& receiver, const PathPointSet& points, int path, uint64_t seed,
+                int maximumDepth, int64_t* rayCount) const;
   Spectrum FromEmitters(const Vertex& at, const double u[3], int64_t* rayCount) const;
   Spectrum FromLight(const Vertex& at, const Light& light, int64_t* rayCount) const;
   Spectrum Unshadowed(const Vertex& at, const Light& light, Vec3f* direction,
@@ -163,20 +204,21 @@ Spectrum PathTracedIrradiance::Implementation::FromOneLight(const Vertex& at, Ra
 
 // Paths.
 
-/// Light that reaches the receiver over one path, except straight from emitters by choice and from
-/// punctual lights; its first direction comes from u, the others from `random`.
-Spectrum PathTracedIrradiance::Implementation::Path(const Vertex& receiver, const double u[2],
-                                                    int maximumDepth, Random* random,
+/// Light that reaches the receiver over one path, but for that of punctual lights straight to it.
+Spectrum PathTracedIrradiance::Implementation::Path(const Vertex& receiver,
+                                                    const PathPointSet& points, int path,
+                                                    uint64_t seed, int maximumDepth,
                                                     int64_t* rayCount) const {
   const TriangleMesh& mesh = scene.mesh;
-  Spectrum sum, throughput(1.f);
+  Random random(HashBits(seed, uint64_t(path)));
+  BounceNumbers numbers = points.AtReceiver(path);
+  Spectrum sum = FromEmitters(receiver, numbers.emitter, rayCount), throughput(1.f);
   Vertex at = receiver;
-  float u0 = float(u[0]), u1 = float(u[1]);
   for (int depth = 0;; ++depth) {
     // A cosine-weighted ray about the normal, within the geometric hemisphere.
     Vec3f s, t;
     CoordinateSystem(at.normal, &s, &t);
-    const Vec3f local = CosineHemisphere(u0, u1);
+    const Vec3f local = CosineHemisphere(float(numbers.direction[0]), float(numbers.direction[1]));
     const Vec3f direction = s * local.x + t * local.y + at.normal * local.z;
     if (Dot(direction, at.geometric) <= 0) return sum;
 
@@ -193,40 +235,29 @@ Spectrum PathTracedIrradiance::Implementation::Path(const Vertex& receiver, cons
     }
     if (depth == maximumDepth) return sum;
 
-    // Diffuse reflection; roulette keeps the throughput near one half.
+    // Diffuse reflection; roulette keeps the throughput near 0.4.
+    numbers = depth == 0 ? points.AtFirstBounce(path) : RandomBounce(&random);
     throughput = throughput * mesh.reflectance[size_t(hit.face)];
-    const float survival = std::min(1.f, 2 * throughput.MaxBand());
-    if (!(survival > 0) || random->Uniform() >= survival) return sum;
+    const float survival = std::min(1.f, 2.5f * throughput.MaxBand());
+    if (!(numbers.roulette < double(survival))) return sum;
     throughput *= 1 / survival;
 
     // The next receiver is the place that was hit.
     at = hit.vertex;
-    const double choice[3] = {random->UniformDouble(), random->UniformDouble(),
-                              random->UniformDouble()};
-    sum += throughput * (FromEmitters(at, choice, rayCount) + FromOneLight(at, random, rayCount));
-    u0 = random->Uniform(), u1 = random->Uniform();
+    sum += throughput *
+           (FromEmitters(at, numbers.emitter, rayCount) + FromOneLight(at, &random, rayCount));
   }
 }
 
-/// The light of some of the paths of a point set: additive recurrences under shifts by `seed`.
 std::array<double, 3> PathTracedIrradiance::Implementation::SumOfPaths(const Vertex& receiver,
                                                                        uint64_t seed,
                                                                        PathRange paths,
                                                                        int maximumDepth,
                                                                        int64_t* rayCount) const {
+  const PathPointSet points(seed);
   std::array<double, 3> sum{};
-  Random shifts(seed);
-  double shift[5];
-  for (double& s : shift) s = shifts.UniformDouble();
-  for (int i = paths.begin; i < paths.end; ++i) {
-    const double first[2] = {Fraction(shift[0] + i * kPlane[0]),
-                             Fraction(shift[1] + i * kPlane[1])};
-    const double choice[3] = {Fraction(shift[2] + i * kSpace[0]),
-                              Fraction(shift[3] + i * kSpace[1]),
-                              Fraction(shift[4] + i * kSpace[2])};
-    Random random(HashBits(seed, uint64_t(i)));
-    const Spectrum light = FromEmitters(receiver, choice, rayCount) +
-                           Path(receiver, first, maximumDepth, &random, rayCount);
+  for (int path = paths.begin; path < paths.end; ++path) {
+    const Spectrum light = Path(receiver, points, path, seed, maximumDepth, rayCount);
     for (size_t band = 0; band < 3; ++band) sum[band] += double(light[int(band)]);
   }
   return sum;

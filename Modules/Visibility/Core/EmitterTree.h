@@ -11,8 +11,8 @@ namespace lambert {
 
 /// A binary tree over the emitting faces of a mesh, walked from the root by what each half may send
 /// to a point: power over squared distance, the cosine at the receiver and the cone of the
-/// emitters' normals (Conty and Kulla 2018). The choice never matters for the mean, only for the
-/// noise.
+/// emitters' normals (Conty and Kulla 2018); among emitters that are far and turned alike, by power
+/// alone. The choice never matters for the mean, only for the noise.
 class EmitterTree {
  public:
   /// A place on an emitter and its density over solid angle, 1/sr; density 0 where there is none.
@@ -49,17 +49,20 @@ class EmitterTree {
     float cosSpread = 1, sinSpread = 0;  ///< half-angle of the cone of normals about the axis
     float power = 0;                     ///< W
     bool twoSided = false;
-    int32_t second = -1;   ///< index of the second child; the first follows its parent
-    int32_t emitter = -1;  ///< of a leaf
+    int32_t second = -1;         ///< index of the second child; the first follows its parent
+    int32_t begin = 0, end = 0;  ///< of its emitters; one of a leaf
   };
 
   int32_t Build(int32_t begin, int32_t end, int depth, uint64_t trail);
   Node Enclose(int32_t begin, int32_t end) const;
+  /// True for a leaf, and where its emitters are chosen from `position` by power alone.
+  static bool IsSmall(const Node& node, const Vec3f& position);
   static float Importance(const Node& node, const Vec3f& position, const Vec3f& normal);
   static double PlaceDensity(const Emitter& emitter, const Vec3f& position, const Vec3f& direction,
                              float distance);
 
   std::vector<Emitter> emitters_;
+  std::vector<double> powerBefore_;  ///< of the emitters before each, and of all, W
   std::vector<Node> nodes_;
   std::vector<int32_t> emitterOfFace_;
 };
