@@ -28,7 +28,7 @@ void AddEscaping(const ElementSides& sides, const SideLight& light, const RaySce
   std::vector<double> leavingUpTo(size_t(sides.Count()));
   double leaving = 0;
   for (size_t i = 0; i < leavingUpTo.size(); ++i) {
-    leaving += double(light.radiosity[i].Mean()) * double(sides.triangles[i].area);
+    leaving += double(light.radiosity[i].Mean()) * double(sides.ExposedArea(i));
     leavingUpTo[i] = leaving;
   }
   if (!(leaving > 0)) return;
@@ -85,11 +85,14 @@ void SideLight::GatherLights(const Scene& scene, const ElementSides& sides,
   ParallelForEach(sides.Count(), 16, [&](int64_t i) {
     const size_t side = size_t(i);
     const ExchangeTriangle& triangle = sides.triangles[side];
+    // Samples that are buried are dark, and no part of the mean.
+    const float exposed = kPlacesPerElement * sides.exposure[side];
+    if (!(exposed > 0)) return;
     for (int place = 0; place < kPlacesPerElement; ++place) {
       const LightReceiver at{sides.samples[side][size_t(place)], triangle.normal, triangle.normal};
       const uint64_t seed = HashBits(uint64_t(i), uint64_t(place));
-      fromLamps[side] += lights.FromLamps(at, &cast[side]) / kPlacesPerElement;
-      fromFar[side] += lights.FromFar(at, skyRaysPerPlace, seed, &cast[side]) / kPlacesPerElement;
+      fromLamps[side] += lights.FromLamps(at, &cast[side]) / exposed;
+      fromFar[side] += lights.FromFar(at, skyRaysPerPlace, seed, &cast[side]) / exposed;
     }
   });
   for (const int64_t count : cast) *rays += count;
@@ -97,7 +100,9 @@ void SideLight::GatherLights(const Scene& scene, const ElementSides& sides,
 
 std::vector<Spectrum> SideLight::IrradianceByKey(const ElementSides& sides, int64_t keys) const {
   std::vector<Spectrum> byKey(static_cast<size_t>(keys));
-  for (size_t i = 0; i < irradiance.size(); ++i) byKey[size_t(sides.key[i])] = irradiance[i];
+  for (size_t i = 0; i < irradiance.size(); ++i) {
+    byKey[size_t(sides.key[i])] = irradiance[i] * sides.exposure[i];
+  }
   return byKey;
 }
 
@@ -105,7 +110,7 @@ void MeasureElementBalance(const Scene& scene, const ElementSides& sides, const 
                            const RayScene& rayScene, SolverStatistics* statistics) {
   PowerSum emitted, absorbed, escaped;
   for (size_t i = 0; i < sides.triangles.size(); ++i) {
-    const double area = double(sides.triangles[i].area);
+    const double area = double(sides.ExposedArea(i));
     const Spectrum& arriving = light.irradiance[i];
     emitted.Add(sides.emittance[i] + light.fromFar[i], area);
     absorbed.Add(arriving - sides.reflectance[i] * arriving, area);

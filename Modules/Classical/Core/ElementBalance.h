@@ -15,7 +15,7 @@ namespace lambert {
 struct SideLight {
   std::vector<Spectrum> fromLamps;   ///< irradiance of point and spot lights, W/m2
   std::vector<Spectrum> fromFar;     ///< irradiance of skies and directional lights, W/m2
-  std::vector<Spectrum> irradiance;  ///< all of it, W/m2
+  std::vector<Spectrum> irradiance;  ///< all of it, on what is exposed, W/m2
   std::vector<Spectrum> radiosity;   ///< W/m2
 
   /// Only what the sides emit.
@@ -28,7 +28,8 @@ struct SideLight {
   /// the rays to `rays`.
   void GatherLights(const Scene& scene, const ElementSides& sides, const RayScene& rayScene,
                     int skyRays, int64_t* rays);
-  /// The irradiance by 2 element + side, for the `keys` sides of a mesh; black where not modelled.
+  /// Irradiance by 2 element + side, for the `keys` sides of a mesh: the mean over a side, of which
+  /// what is buried is dark; black where not modelled.
   std::vector<Spectrum> IrradianceByKey(const ElementSides& sides, int64_t keys) const;
 };
 

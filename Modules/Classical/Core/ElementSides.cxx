@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
 
 namespace lambert {
@@ -51,6 +52,7 @@ ElementSides CollectElementSides(const Scene& scene, const UniformMesh& mesh,
         const bool isOwn = element == begin && end - begin >= kOwnGroup;
         if (sides.groupBegin.empty() || isFull || isOwn) sides.groupBegin.push_back(index);
         sides.triangles.push_back(triangle);
+        sides.exposure.push_back(1);
         sides.key.push_back(int32_t(2 * element + side));
         sides.samples.push_back(SamplesOn(triangle, sides.key.back()));
         sides.reflectance.push_back(scene.mesh.reflectance[face]);
@@ -60,6 +62,20 @@ ElementSides CollectElementSides(const Scene& scene, const UniformMesh& mesh,
   }
   if (!sides.groupBegin.empty()) sides.groupBegin.push_back(int32_t(sides.Count()));
   return sides;
+}
+
+void ElementSides::MeasureExposure(const ExposedPlaces& places, int64_t* rays) {
+  std::vector<int64_t> cast(triangles.size(), 0);
+  ParallelForEach(Count(), 64, [&](int64_t side) {
+    const size_t i = size_t(side);
+    int exposed = 0;
+    for (size_t k = 0; k < samples[i].size(); ++k) {
+      const uint64_t seed = HashBits(uint64_t(key[i]), k);
+      exposed += places.IsExposed(samples[i][k], triangles[i].normal, seed, &cast[i]) ? 1 : 0;
+    }
+    exposure[i] = float(exposed) / float(samples[i].size());
+  });
+  for (const int64_t count : cast) *rays += count;
 }
 
 std::vector<std::vector<Vec3f>> ElementSides::GroupPoints(const UniformMesh& mesh) const {

@@ -55,7 +55,9 @@ class GroupPair {
     const int32_t columnEnd = sides_.groupBegin[size_t(columnGroup) + 1];
     for (int32_t i = sides_.groupBegin[size_t(rowGroup)]; i < rowEnd; ++i) {
       const ExchangeTriangle& a = sides_.triangles[size_t(i)];
+      if (!(sides_.exposure[size_t(i)] > 0)) continue;
       for (int32_t j = std::max(i + 1, columnBegin); j < columnEnd; ++j) {
+        if (!(sides_.exposure[size_t(j)] > 0)) continue;
         if (CanExchange(a, sides_.triangles[size_t(j)])) pairs_.push_back({i, j, 1, 0});
       }
     }
@@ -245,7 +247,9 @@ void ExchangeMatrix::BoundRows() {
       sums[row] += double(*area);
       sums[column] += double(*area);
     });
-    for (size_t i = 0; i < sides; ++i) sums[i] /= double(sides_.triangles[i].area);
+    for (size_t i = 0; i < sides; ++i) {
+      sums[i] = sides_.exposure[i] > 0 ? sums[i] / double(sides_.ExposedArea(i)) : 0;
+    }
     return sums;
   };
   const std::vector<double> sums = sumRows();
@@ -259,7 +263,8 @@ void ExchangeMatrix::BoundRows() {
 }
 
 float ExchangeMatrix::FormFactor(int32_t i, int32_t j) const {
-  return storage_->upper.coeff(std::min(i, j), std::max(i, j)) / sides_.triangles[size_t(i)].area;
+  const float area = sides_.ExposedArea(size_t(i));
+  return area > 0 ? storage_->upper.coeff(std::min(i, j), std::max(i, j)) / area : 0;
 }
 
 double ExchangeMatrix::Sweep(const std::vector<Spectrum>& lightIrradiance,
@@ -279,12 +284,14 @@ double ExchangeMatrix::Sweep(const std::vector<Spectrum>& lightIrradiance,
     const float* area = upper.valuePtr();
     Array4f sum = power[i];
     for (int32_t k = begin; k < end; ++k) sum += area[k] * leaving[size_t(column[k])];
-    const Spectrum arriving = lightIrradiance[i] + FromLanes(sum) / sides_.triangles[i].area;
+    const float exposed = sides_.ExposedArea(i);
+    if (!(exposed > 0)) continue;
+    const Spectrum arriving = lightIrradiance[i] + FromLanes(sum) / exposed;
     const Spectrum now = sides_.emittance[i] + sides_.reflectance[i] * arriving;
 
-    const Array4f step = (Lanes(now) - leaving[i]).abs() * sides_.triangles[i].area;
+    const Array4f step = (Lanes(now) - leaving[i]).abs() * exposed;
     change += double(step.sum());
-    total += 3.0 * double(now.Mean()) * double(sides_.triangles[i].area);
+    total += 3.0 * double(now.Mean()) * double(exposed);
     (*irradiance)[i] = arriving;
     (*radiosity)[i] = now;
     leaving[i] = Lanes(now);

@@ -59,7 +59,8 @@ RadiositySolution SolveMatrixRadiosity(const Scene& scene, const MatrixRadiosity
   const RayScene rayScene(scene.mesh);
   const std::vector<uint8_t> litFaces =
       FindLitFaces(scene, mesh, rayScene, SourceLight(scene, rayScene), &account.rays);
-  const ElementSides sides = CollectElementSides(scene, mesh, litFaces);
+  ElementSides sides = CollectElementSides(scene, mesh, litFaces);
+  sides.MeasureExposure({scene, rayScene, litFaces}, &account.rays);
 
   // Form factors.
   ExchangeMatrixOptions matrixOptions;

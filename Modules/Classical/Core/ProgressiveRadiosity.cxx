@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "Classical/Core/ElementBalance.h"
+#include "Classical/Core/ExposedPlaces.h"
 #include "Classical/Core/LampsAndSky.h"
 #include "Classical/Core/LitFaces.h"
 #include "Classical/Core/PointFormFactors.h"
@@ -52,10 +53,21 @@ double Power(const PlacePower& power) {
 struct Shooters {
   std::vector<ExchangeTriangle> triangles;
   std::vector<PlacePower> unshot;
+  /// Area of the parts about the places that is not buried in another thing, m2.
+  std::vector<std::array<float, kPlacesPerElement>> exposedArea;
   /// Per output face: the shooter that its reflected light joins, and the place there; the place is
   /// -1 where the face is too much of the patch for a single one.
   std::vector<int32_t> ofFace;
   std::vector<int8_t> placeOfFace;
+
+  /// What a face gives to a place of its shooter of values at its corners: their mean, to its own
+  /// place; a face that is a patch, or half of one, a quarter to each, linear between its corners.
+  template <class T>
+  T PlaceMean(size_t face, size_t place, const std::array<T, 3>& at) const {
+    const T sum = at[0] + at[1] + at[2];
+    if (placeOfFace[face] >= 0) return size_t(placeOfFace[face]) == place ? sum / 3.f : T();
+    return (place < 3 ? at[place] * 0.5f + sum / 6.f : sum / 3.f) / float(kPlacesPerElement);
+  }
 
   Spectrum TotalUnshot() const {
     Spectrum total;
@@ -95,6 +107,7 @@ Shooters CollectShooters(const UniformMesh& mesh, const UniformSolution& uniform
       const size_t second = solution.side[face] == kFront ? 1 : 2;
       shooters.triangles.emplace_back(corner(0), corner(second), corner(3 - second));
       shooters.unshot.emplace_back();
+      shooters.exposedArea.push_back({});
     }
     const bool isCoarse = mesh.patchBegin[patch + 1] - mesh.patchBegin[patch] < kPlacesPerElement;
     shooters.ofFace.push_back(shooter);
@@ -110,6 +123,8 @@ Shooters CollectShooters(const UniformMesh& mesh, const UniformSolution& uniform
     PlacePower own;
     own.fill(output.emittance[face] * (shooters.triangles.back().area / kPlacesPerElement));
     shooters.unshot.push_back(own);
+    shooters.exposedArea.emplace_back();
+    shooters.exposedArea.back().fill(shooters.triangles.back().area / kPlacesPerElement);
   }
   return shooters;
 }
@@ -128,6 +143,7 @@ struct PointLight {
 struct ProgressiveRadiosity::Implementation {
   Implementation(const Scene& scene_, const ProgressiveRadiosityOptions& options_);
 
+  void FindExposedPoints();
   void ReceiveFromLights();
   void Reflect(const std::vector<Spectrum>& facetIrradiance);
   void Shoot(size_t shooter);
@@ -167,9 +183,34 @@ ProgressiveRadiosity::Implementation::Implementation(const Scene& scene_,
   const TriangleMesh& output = uniform.solution.mesh;
   for (int64_t face = 0; face < output.FaceCount(); ++face) faceArea.push_back(output.Area(face));
   received.resize(uniform.receivers.size());
+  FindExposedPoints();
   ReceiveFromLights();
   firstLight = Unshot();
   statistics.patchElements = int64_t(uniform.element.size());
+}
+
+// Points that see nothing but the dark inside of things are buried there. What the patches have to
+// shoot leaves by the area that is not.
+void ProgressiveRadiosity::Implementation::FindExposedPoints() {
+  const ExposedPlaces places(scene, rayScene, litFaces);
+  std::vector<uint8_t> isExposed(uniform.receivers.size());
+  std::vector<int64_t> cast(isExposed.size(), 0);
+  ParallelForEach(uniform.PointCount(), 64, [&](int64_t point) {
+    const ElementReceiver& at = uniform.receivers[size_t(point)];
+    isExposed[size_t(point)] =
+        places.IsExposed(at.position, at.geometric, uint64_t(point), &cast[size_t(point)]) ? 1 : 0;
+  });
+  for (const int64_t count : cast) statistics.rays += count;
+
+  for (size_t face = 0; face < faceArea.size(); ++face) {
+    const auto& [a, b, c] = uniform.solution.mesh.triangles[face];
+    const std::array<float, 3> exposed{float(isExposed[size_t(a)]), float(isExposed[size_t(b)]),
+                                       float(isExposed[size_t(c)])};
+    auto& area = shooters.exposedArea[size_t(shooters.ofFace[face])];
+    for (size_t place = 0; place < area.size(); ++place) {
+      area[place] += faceArea[face] * shooters.PlaceMean(face, place, exposed);
+    }
+  }
 }
 
 // Lamps without geometry and skies shoot first, all at once.
@@ -201,27 +242,21 @@ void ProgressiveRadiosity::Implementation::Reflect(const std::vector<Spectrum>& 
     const auto& [a, b, c] = output.triangles[face];
     const std::array<Spectrum, 3> at{facetIrradiance[size_t(a)], facetIrradiance[size_t(b)],
                                      facetIrradiance[size_t(c)]};
-    const Spectrum sum = at[0] + at[1] + at[2];
-    if (sum.IsBlack()) continue;
+    if (at[0].IsBlack() && at[1].IsBlack() && at[2].IsBlack()) continue;
     const Spectrum reflected = output.reflectance[face] * faceArea[face];
     PlacePower& unshot = shooters.unshot[size_t(shooters.ofFace[face])];
-    if (shooters.placeOfFace[face] >= 0) {
-      unshot[size_t(shooters.placeOfFace[face])] += reflected * sum / 3;
-      continue;
+    for (size_t place = 0; place < unshot.size(); ++place) {
+      unshot[place] += reflected * shooters.PlaceMean(face, place, at);
     }
-    // A face that is a patch, or half of one: linear between its corners.
-    for (size_t corner = 0; corner < 3; ++corner) {
-      unshot[corner] += reflected * (at[corner] * 0.5f + sum / 6) / kPlacesPerElement;
-    }
-    unshot[3] += reflected * sum / (3 * kPlacesPerElement);
   }
 }
 
 void ProgressiveRadiosity::Implementation::Shoot(size_t shooter) {
-  // Radiosity of the parts about the places, a quarter of the area each.
+  // Radiosity of what is exposed of the parts about the places.
   PlacePower radiosity = shooters.unshot[shooter];
-  for (Spectrum& part : radiosity) {
-    part *= kPlacesPerElement / shooters.triangles[shooter].area;
+  for (size_t place = 0; place < radiosity.size(); ++place) {
+    const float area = shooters.exposedArea[shooter][place];
+    radiosity[place] = area > 0 ? radiosity[place] / area : Spectrum();
   }
   shooters.unshot[shooter] = {};
 

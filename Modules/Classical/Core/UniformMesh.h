@@ -60,7 +60,9 @@ UniformMesh MakeUniformMesh(const Scene& scene, double elementSize, double patch
 
 /// The place at an output point from which its light is gathered.
 struct ElementReceiver {
-  Vec3f position;   ///< drawn 1e-3 of the way to the middle of the point's elements, on `element`
+  /// Drawn to the middle of the point's elements, on `element`: 1e-3 of the way, 4e-5 of the
+  /// scene's diagonal at least, half the way at most.
+  Vec3f position;
   Vec3f normal;     ///< unit, the point's: delivered irradiance is for this one
   Vec3f geometric;  ///< unit, of the element's side: only its hemisphere sees light
   int32_t element = -1;

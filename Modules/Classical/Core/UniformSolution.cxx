@@ -13,6 +13,9 @@ namespace {
 /// How far a receiver is drawn from its point toward the middle of its elements, so that a corner
 /// of a room does not look along its walls.
 constexpr float kReceiverInset = 1e-3f;
+/// It is drawn this part of the scene's diagonal at least, where its elements are that large: rays
+/// skip a quarter of it.
+constexpr float kClearance = 4e-5f;
 
 /// Calls visit(point, corner angle in radians, output face) for every corner, faces in order.
 template <class Visit>
@@ -120,11 +123,14 @@ void PlaceReceivers(UniformSolution* uniform) {
     ++corners[point];
   });
   uniform->receivers.resize(points);
+  const float clearance = kClearance * mesh.Bounds().Diagonal();
   for (size_t point = 0; point < points; ++point) {
     ElementReceiver& receiver = uniform->receivers[point];
     const Vec3f centre(middle[point] / double(3 * corners[point]));
     receiver.normal = mesh.normals[point];
-    receiver.position = mesh.positions[point] + (centre - mesh.positions[point]) * kReceiverInset;
+    const Vec3f way = centre - mesh.positions[point];
+    const float inset = std::max(kReceiverInset, clearance / std::max(clearance, Length(way)));
+    receiver.position = mesh.positions[point] + way * std::min(0.5f, inset);
   }
 
   std::vector<float> height(points);
