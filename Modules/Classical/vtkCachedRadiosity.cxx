@@ -18,6 +18,7 @@ vtkCachedRadiosity::~vtkCachedRadiosity() = default;
   }                                                \
   type vtkCachedRadiosity::Get##name() { return this->Options->member; }
 lambertOptionMacro(ElementSize, double, elementSize);
+lambertOptionMacro(OutputSize, double, outputSize);
 lambertOptionMacro(Paths, int, paths);
 lambertOptionMacro(GatherRays, int, gatherRays);
 lambertOptionMacro(EmitterRays, int, emitterRays);
@@ -37,6 +38,7 @@ int vtkCachedRadiosity::RequestData(vtkInformation*, vtkInformationVector** inpu
 void vtkCachedRadiosity::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ElementSize: " << this->GetElementSize() << "\n"
+     << indent << "OutputSize: " << this->GetOutputSize() << "\n"
      << indent << "Paths: " << this->GetPaths() << "\n"
      << indent << "GatherRays: " << this->GetGatherRays() << "\n"
      << indent << "EmitterRays: " << this->GetEmitterRays() << "\n"

@@ -25,13 +25,16 @@ class LAMBERTCLASSICAL_EXPORT vtkCachedRadiosity : public vtkRadiosityAlgorithm 
   vtkTypeMacro(vtkCachedRadiosity, vtkRadiosityAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  ///@{ Longest edge of the output and size of the cache's cells, m, [0, inf); default 0: 1/50 of
-  ///the
-  /// scene's diagonal.
+  ///@{ Size of the cache's cells, m, [0, inf); default 0: 1/50 of the scene's diagonal.
   void SetElementSize(double metres);
   double GetElementSize();
   ///@}
-  ///@{ Paths of each lit side of a cell, at least 1; default 64.
+  ///@{ Longest edge of the output, m, [0, inf); default 0: the element size. A very large one
+  /// leaves the mesh as it is.
+  void SetOutputSize(double metres);
+  double GetOutputSize();
+  ///@}
+  ///@{ Paths of each lit side of a cell, at least 1; default 32.
   void SetPaths(int paths);
   int GetPaths();
   ///@}

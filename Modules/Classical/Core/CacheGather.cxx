@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
@@ -12,6 +13,9 @@ namespace {
 
 /// Rays that are traced together.
 constexpr int kRaysPerBatch = 1024;
+/// A ray is followed over so many near hits at the most. One mends the corners of rooms; more cost
+/// as much again within small things, where they mend little.
+constexpr int kMostHops = 1;
 
 class CacheGatherer {
  public:
@@ -29,10 +33,10 @@ class CacheGatherer {
   void Gather(const int32_t* order, int count, Spectrum* irradiance, int64_t* cast);
 
  private:
-  struct Nearby {
-    int32_t point;  ///< that the light goes to
-    Spectrum reflectance;
-    Spectrum direct;
+  /// What a ray is for.
+  struct Trail {
+    int32_t point;        ///< that the light goes to
+    Spectrum throughput;  ///< of what the ray brings there
   };
 
   void StartRays(int32_t point);
@@ -40,8 +44,8 @@ class CacheGatherer {
     return Dot(scene_.mesh.VectorArea(hit.face), direction) < 0 ? kFront : kBack;
   }
   /// What comes along a ray, as radiosity, W/m2.
-  Spectrum Read(const RayBatch& batch, int32_t ray) const;
-  void Follow(int32_t ray, int32_t point, int64_t* cast);
+  Spectrum Read(int32_t ray) const;
+  void Follow(int32_t ray, uint64_t hop, Spectrum* irradiance, int64_t* cast);
 
   const Scene& scene_;
   const RayScene& rays_;
@@ -49,8 +53,8 @@ class CacheGatherer {
   const ElementCache& cache_;
   const std::vector<LightReceiver>& points_;
   const CacheGatherOptions& options_;
-  RayBatch first_, second_;
-  std::vector<Nearby> nearby_;
+  RayBatch batch_, next_;
+  std::vector<Trail> trails_, nextTrails_;
 };
 
 /// Cosine-weighted rays, a Hammersley set under a random shift of the point's own.
@@ -63,75 +67,74 @@ void CacheGatherer::StartRays(int32_t point) {
   for (int i = 0; i < options_.rays; ++i) {
     const float u = (float(i) + shift0) / float(options_.rays);
     const Vec3f local = CosineHemisphere(u, RadicalInverse(uint32_t(i), shift1));
-    first_.Add(at.position, Normalize(s * local.x + t * local.y + at.normal * local.z));
+    const Vec3f direction = Normalize(s * local.x + t * local.y + at.normal * local.z);
+    if (Dot(direction, at.geometric) <= 0) continue;
+    batch_.Add(at.position, direction);
+    trails_.push_back({point, Spectrum(1 / float(options_.rays))});
   }
 }
 
-Spectrum CacheGatherer::Read(const RayBatch& batch, int32_t ray) const {
-  const RayHit& hit = batch.Hit(ray);
+Spectrum CacheGatherer::Read(int32_t ray) const {
+  const RayHit& hit = batch_.Hit(ray);
   if (hit.face < 0) return sources_.Sky() * float(kPi);
-  return cache_.Reflected(hit.face, SideOf(hit, batch.Direction(ray)), hit.barycentric);
+  return cache_.Reflected(hit.face, SideOf(hit, batch_.Direction(ray)), hit.barycentric);
 }
 
-/// Near by, a cell is too coarse: the light of the place itself, by one more ray.
-void CacheGatherer::Follow(int32_t ray, int32_t point, int64_t* cast) {
-  const RayHit& hit = first_.Hit(ray);
-  const Side side = SideOf(hit, first_.Direction(ray));
-  const Vec3f normal = scene_.mesh.FrontNormal(hit.face) * (side == kFront ? 1.f : -1.f);
-  const Vec3f middle = (scene_.mesh.Corner(hit.face, 0) + scene_.mesh.Corner(hit.face, 1) +
-                        scene_.mesh.Corner(hit.face, 2)) /
-                       3.f;
-  const LightReceiver at{DrawnInward(first_.HitPosition(ray), middle, rays_), normal, normal};
-  Random random(HashBits(HashBits(options_.seed, uint64_t(point)), uint64_t(ray) + 1));
-  const Spectrum direct =
-      sources_.FromEmitters(at, 1, &random, cast) + sources_.FromLights(at, cast);
-  nearby_.push_back({point, scene_.mesh.reflectance[size_t(hit.face)], direct});
+/// Near by, a cell is too coarse: the direct light of the place itself, and one more ray.
+void CacheGatherer::Follow(int32_t ray, uint64_t hop, Spectrum* irradiance, int64_t* cast) {
+  const TriangleMesh& mesh = scene_.mesh;
+  const RayHit& hit = batch_.Hit(ray);
+  const Trail& trail = trails_[size_t(ray)];
+  const Side side = SideOf(hit, batch_.Direction(ray));
+  const Vec3f normal = mesh.FrontNormal(hit.face) * (side == kFront ? 1.f : -1.f);
+  const Vec3f middle =
+      (mesh.Corner(hit.face, 0) + mesh.Corner(hit.face, 1) + mesh.Corner(hit.face, 2)) / 3.f;
+  const LightReceiver at{DrawnInward(batch_.HitPosition(ray), middle, rays_), normal, normal};
+  Random random(HashBits(HashBits(options_.seed, uint64_t(trail.point)),
+                         (hop + 1) << 32 | uint64_t(hit.face)));
+  const Spectrum throughput = trail.throughput * mesh.reflectance[size_t(hit.face)];
+  if (throughput.IsBlack()) return;
+  irradiance[trail.point] +=
+      throughput * (sources_.FromEmitters(at, 1, &random, cast) + sources_.FromLights(at, cast));
   Vec3f s, t;
   CoordinateSystem(normal, &s, &t);
   const float u = random.Uniform(), v = random.Uniform();
   const Vec3f local = CosineHemisphere(u, v);
-  second_.Add(at.position, Normalize(s * local.x + t * local.y + normal * local.z));
+  next_.Add(at.position, Normalize(s * local.x + t * local.y + normal * local.z));
+  nextTrails_.push_back({trail.point, throughput});
 }
 
 void CacheGatherer::Gather(const int32_t* order, int count, Spectrum* irradiance, int64_t* cast) {
-  first_.Clear();
-  second_.Clear();
-  nearby_.clear();
-  for (int i = 0; i < count; ++i) StartRays(order[i]);
-  first_.Trace(rays_);
-
-  // What the rays read, but for those that must go further.
-  const float perRay = 1 / float(options_.rays);
-  for (int i = 0; i < count; ++i) {
-    const int32_t point = order[i];
-    const LightReceiver& at = points_[size_t(point)];
-    Spectrum sum;
-    for (int32_t ray = i * options_.rays; ray < (i + 1) * options_.rays; ++ray) {
-      if (Dot(first_.Direction(ray), at.geometric) <= 0) continue;
-      const RayHit& hit = first_.Hit(ray);
-      if (hit.face >= 0 && double(hit.distance) < options_.nearby) {
-        Follow(ray, point, cast);
-      } else {
-        sum += Read(first_, ray);
-      }
-    }
-    irradiance[point] = sum * perRay;
-  }
-  second_.Trace(rays_);
-  for (int32_t ray = 0; ray < second_.Size(); ++ray) {
-    const Nearby& place = nearby_[size_t(ray)];
-    irradiance[place.point] += place.reflectance * (place.direct + Read(second_, ray)) * perRay;
-  }
-
   // Straight from the sources.
+  batch_.Clear();
+  trails_.clear();
   for (int i = 0; i < count; ++i) {
     const int32_t point = order[i];
     Random random(HashBits(options_.seed, ~uint64_t(point)));
-    irradiance[point] +=
-        sources_.FromEmitters(points_[size_t(point)], options_.emitterRays, &random, cast) +
-        sources_.FromLights(points_[size_t(point)], cast);
+    const LightReceiver& at = points_[size_t(point)];
+    irradiance[point] = sources_.FromEmitters(at, options_.emitterRays, &random, cast) +
+                        sources_.FromLights(at, cast);
+    StartRays(point);
   }
-  *cast += first_.Size() + second_.Size();
+
+  // By rays that end in the cache at the first hit that is not near.
+  for (int hop = 0; hop <= kMostHops && batch_.Size() > 0; ++hop) {
+    batch_.Trace(rays_);
+    *cast += batch_.Size();
+    next_.Clear();
+    nextTrails_.clear();
+    for (int32_t ray = 0; ray < batch_.Size(); ++ray) {
+      const RayHit& hit = batch_.Hit(ray);
+      const Trail& trail = trails_[size_t(ray)];
+      if (hit.face < 0 || double(hit.distance) >= options_.nearby || hop == kMostHops) {
+        irradiance[trail.point] += trail.throughput * Read(ray);
+      } else {
+        Follow(ray, uint64_t(hop) << 16 | uint64_t(ray), irradiance, cast);
+      }
+    }
+    std::swap(batch_, next_);
+    std::swap(trails_, nextTrails_);
+  }
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace lambert {
 struct CacheGatherOptions {
   int rays = 64;         ///< a point, over the hemisphere, [1, inf)
   int emitterRays = 16;  ///< a point, to emitting faces, [1, inf)
-  double nearby = 0;     ///< m; hits nearer than this are not read but followed one bounce further
+  double nearby = 0;     ///< m; hits nearer than this are not read but followed further
   uint64_t seed = 1;
 };
 

@@ -116,6 +116,8 @@ RadiositySolution SolveCachedRadiosity(const Scene& scene, const CachedRadiosity
                                        const ProgressCallback& progress) {
   RequireOptions(options);
   const double elementSize = ResolveElementSize(scene, options.elementSize);
+  const double outputSize =
+      options.outputSize == 0 ? elementSize : ResolveElementSize(scene, options.outputSize);
 
   // The light of the cells.
   const RayScene rays(scene.mesh);
@@ -125,7 +127,7 @@ RadiositySolution SolveCachedRadiosity(const Scene& scene, const CachedRadiosity
   cache.Fill(ShareOf(progress, 0, 0.3));
 
   // The points, and their light.
-  const UniformMesh mesh = MakeUniformMesh(scene, elementSize);
+  const UniformMesh mesh = MakeUniformMesh(scene, outputSize);
   int64_t cast = 0;
   UniformSolution uniform = MakeUniformSolution(
       scene, mesh, LitSides({scene, rays, sources, cells, cache}, options.seed, &cast));

@@ -11,8 +11,10 @@
 namespace lambert {
 
 struct CachedRadiosityOptions {
-  double elementSize = 0;  ///< m, [0, inf), of cells and of output edges; 0: 1/50 of the diagonal
-  int paths = 64;          ///< of each lit side of a cell, [1, inf)
+  double elementSize = 0;  ///< of cells, m, [0, inf); 0: 1/50 of the scene's diagonal
+  double outputSize = 0;   ///< longest edge of the output, m, [0, inf); 0: the element size. A very
+                           ///< large one leaves the mesh as it is.
+  int paths = 32;          ///< of each lit side of a cell, [1, inf)
   int gatherRays = 64;     ///< of each output point, [1, inf)
   int emitterRays = 16;    ///< of each output point, to emitting faces, [1, inf)
   uint64_t seed = 1;

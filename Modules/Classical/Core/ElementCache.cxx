@@ -21,6 +21,8 @@ constexpr int64_t kSidesPerBatch = 32;
 /// Sweeps end where what is still to come is less than this part of all light.
 constexpr double kRemainder = 1e-3;
 constexpr int kMostSweeps = 2000;
+/// A side is partly buried where at least this part of its places is open.
+constexpr float kLeastOpen = 0.25f;
 /// Less than this part of the mean irradiance is darkness.
 constexpr double kDarkness = 1e-4;
 
@@ -242,7 +244,8 @@ std::vector<int32_t> ElementCache::DarkSidesInSight() const {
   return found;
 }
 
-/// Leaves buried places out, and sums up what the others have from the sources and the sky.
+/// Sums up what places have from the sources and the sky. Buried places are left out of the mean,
+/// but not where nearly all are: that is the inside of something closed, and the others leak.
 void ElementCache::PrepareRows() {
   const size_t rows = sideOfRow_.size();
   received_.assign(rows, {});
@@ -262,7 +265,7 @@ void ElementCache::PrepareRows() {
         if (ends[r] == kEscaped) sum += sky * (1.f / kRaysPerPlace);
       }
     }
-    if (open == 0) return;
+    if (float(open) < kLeastOpen * float(places_)) open = places_;
     received_[row] = sum / float(open);
     perRay_[row] = 1 / float(open * kRaysPerPlace);
   });

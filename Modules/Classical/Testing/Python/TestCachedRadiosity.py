@@ -27,7 +27,7 @@ def array(data, name):
 
 method = lambert.vtkCachedRadiosity()
 assert isinstance(method, lambert.vtkRadiosityAlgorithm)
-for name, default, other in (("ElementSize", 0.0, 0.2), ("Paths", 64, 8), ("GatherRays", 64, 16), ("EmitterRays", 16, 4),
+for name, default, other in (("ElementSize", 0.0, 0.2), ("OutputSize", 0.0, 0.4), ("Paths", 32, 8), ("GatherRays", 64, 16), ("EmitterRays", 16, 4),
                              ("Seed", 1, 2)):
     assert getattr(method, "Get" + name)() == default, name
     getattr(method, "Set" + name)(other)
@@ -46,8 +46,14 @@ assert history.GetNumberOfRows() > 3
 assert lit.GetNumberOfPoints() == scene.GetNumberOfPoints()
 assert np.allclose(array(lit, "Irradiance"), 2, rtol=0.002)
 
+# A large output size leaves the mesh as it is.
+method.SetOutputSize(100)
+method.Update()
+assert method.GetOutput().GetNumberOfCells() == scene.GetNumberOfCells()
+assert np.allclose(array(method.GetOutput(), "Radiosity"), 2, rtol=0.002)
+
 # Errors are told, and nothing is delivered.
-for name, value in (("Paths", 0), ("GatherRays", -1), ("ElementSize", -1.0), ("ElementSize", 1e-6)):
+for name, value in (("Paths", 0), ("GatherRays", -1), ("ElementSize", -1.0), ("OutputSize", -1.0), ("ElementSize", 1e-6)):
     broken, errors = lambert.vtkCachedRadiosity(), []
     getattr(broken, "Set" + name)(value)
     broken.AddObserver("ErrorEvent", lambda *_: errors.append(1))
