@@ -16,8 +16,9 @@ namespace lambert {
 
 namespace {
 
-/// Paths that find out whether light arrives at one side of a vertex.
-constexpr int kFirstPaths = 16;
+/// Paths that find out whether light arrives at one side of a vertex: so many divided by the faces
+/// that meet there, as their other corners look for them too; but not fewer than the least.
+constexpr int kFirstPaths = 16, kLeastFirstPaths = 4;
 
 /// Light at both sides of every vertex, and which sides of which faces it arrives at.
 class VertexLight {
@@ -39,12 +40,13 @@ class VertexLight {
   void Trace(const ProgressCallback& progress) {
     std::vector<int32_t> round(receivers_.size());
     for (size_t i = 0; i < round.size(); ++i) round[i] = int32_t(i);
-    TracePaths(round, std::min(kFirstPaths, options_.samples), {0, 0.2}, progress);
+    TracePaths(round, FirstPaths(), {0, 0.2}, progress);
+    const std::vector<int32_t> all(receivers_.size(), options_.samples);
     double done = 0.2;
     for (round = Unfinished(); !round.empty(); round = Unfinished()) {
       // Nearly all of the work is in the first of these rounds.
       const double end = done < 0.9 ? 0.9 : done + 0.5 * (1 - done);
-      TracePaths(round, options_.samples, {done, end}, progress);
+      TracePaths(round, all, {done, end}, progress);
       done = end;
     }
     if (!Report(progress, 1, kStage)) throw Cancelled();
@@ -89,6 +91,19 @@ class VertexLight {
     return sum[0] > 0 || sum[1] > 0 || sum[2] > 0;
   }
 
+  /// How many paths each receiver begins with.
+  std::vector<int32_t> FirstPaths() const {
+    std::vector<int32_t> facesOfPoint(mesh_.positions.size(), 0), paths;
+    for (const auto& triangle : mesh_.triangles) {
+      for (const int32_t point : triangle) ++facesOfPoint[size_t(point)];
+    }
+    for (const VertexReceiver& receiver : receivers_) {
+      const int share = kFirstPaths / facesOfPoint[size_t(receiver.point)];
+      paths.push_back(std::min(options_.samples, std::max(kLeastFirstPaths, share)));
+    }
+    return paths;
+  }
+
   /// Receivers at the corners of lit sides that have not taken all their paths.
   std::vector<int32_t> Unfinished() const {
     std::vector<uint8_t> wanted(receivers_.size(), 0);
@@ -108,12 +123,12 @@ class VertexLight {
     return unfinished;
   }
 
-  /// Brings each receiver of the round up to `samples` paths.
-  void TracePaths(const std::vector<int32_t>& round, int samples, std::pair<double, double> part,
-                  const ProgressCallback& progress) {
+  /// Brings each receiver of the round up to its number of paths.
+  void TracePaths(const std::vector<int32_t>& round, const std::vector<int32_t>& paths,
+                  std::pair<double, double> part, const ProgressCallback& progress) {
     constexpr int64_t kPathsPerBlock = int64_t(1) << 19;  // A fraction of a second.
     const int64_t count = int64_t(round.size());
-    const int64_t block = std::max<int64_t>(64, kPathsPerBlock / samples);
+    const int64_t block = std::max<int64_t>(64, kPathsPerBlock / options_.samples);
     for (int64_t begin = 0; begin < count; begin += block) {
       const double fraction = double(begin) / double(count);
       if (!Report(progress, part.first + (part.second - part.first) * fraction, kStage)) {
@@ -127,9 +142,9 @@ class VertexLight {
           const size_t receiver = size_t(round[size_t(i)]);
           const auto sum = tracer_.SumOfPaths(receivers_[receiver].receiver,
                                               HashBits(options_.seed, uint64_t(receiver)),
-                                              {paths_[receiver], samples}, &cast);
+                                              {paths_[receiver], paths[receiver]}, &cast);
           for (size_t band = 0; band < 3; ++band) light_[receiver][band] += sum[band];
-          paths_[receiver] = samples;
+          paths_[receiver] = paths[receiver];
         }
         rays += cast;
       });
