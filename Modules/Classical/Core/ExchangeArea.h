@@ -31,7 +31,7 @@ constexpr int kPlacesPerElement = 4;
 bool CanExchange(const ExchangeTriangle& a, const ExchangeTriangle& b);
 
 /// Exact but for rounding and an outer quadrature (1e-4 of the result where the two share an edge,
-/// less elsewhere): the double contour integral of ln r (Sparrow and Cess 1978), over the parts
+/// less elsewhere): the double contour integral of ln r (sparrow1978), over the parts
 /// that lie above each other's plane; the inner integral in closed form. Never negative, never more
 /// than the smaller area.
 double ExactExchangeArea(const ExchangeTriangle& a, const ExchangeTriangle& b);

@@ -1,6 +1,6 @@
 // Progressive radiosity: the patch with the most unshot light shoots, again and again (Southwell
 // iteration; cohen1988; thesis 3.1.2). Light is received at the vertices of finer elements
-// (substructuring; receivers as in Wallace et al. 1989).
+// (substructuring; receivers as in wallace1989).
 #pragma once
 
 #include <cstdint>

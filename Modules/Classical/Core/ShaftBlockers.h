@@ -1,4 +1,4 @@
-// Which faces may stand between two groups of points (Haines and Wallace 1991)? Where none does, no
+// Which faces may stand between two groups of points (haines1991)? Where none does, no
 // ray need be cast; where few do, rays need be tried against those alone.
 #pragma once
 
