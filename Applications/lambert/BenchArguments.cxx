@@ -98,7 +98,7 @@ void BenchArguments::Check() {
   longest = convergenceSeconds = 1e6;  // What is run does not depend on the machine.
   vertices = std::min<int64_t>(vertices, 1000);
   reference.receivers = 200;
-  reference.paths = 128;
+  reference.paths = 512;
   largest = 20000;
   tessellationError = convergenceError = 0.3;
 }

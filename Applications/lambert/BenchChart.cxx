@@ -43,6 +43,8 @@ constexpr float kLineWidth = 2.5f, kMarkerSize = 7;
 
 /// Room beyond the outermost points, of the axis.
 constexpr double kPadding = 0.04;
+/// Decades that an axis shows at least.
+constexpr double kLeastSpan = 0.4;
 
 /// Range and ticks of a logarithmic axis; positions are decimal logarithms.
 struct LogAxis {
@@ -66,7 +68,8 @@ std::string TickLabel(double value, ChartUnit unit) {
 
 LogAxis MakeAxis(double least, double most, ChartUnit unit) {
   LogAxis axis;
-  const double padding = kPadding * std::max(0.3, std::log10(most / least));
+  const double span = std::log10(most / least);
+  const double padding = std::max(kPadding * span, (kLeastSpan - span) / 2);
   axis.low = std::log10(least) - padding;
   axis.high = std::log10(most) + padding;
   // Many steps on short axes; 1, 2, 5; 1, 3 on longer ones; powers of ten on the longest.
@@ -180,7 +183,12 @@ class ChartWords : public vtkContextItem {
 
   void PaintHeading(vtkContext2D* painter) const {
     const float left = 14.f * float(scale_), top = float(kHeight * scale_);
-    SetText(painter, kTitleSize, true, {20, 20, 20});
+    int size = kTitleSize;
+    for (float bounds[4] = {}; size > kSubtitleSize; --size) {
+      SetText(painter, size, true, {20, 20, 20});
+      painter->ComputeStringBounds(about_->title, bounds);
+      if (bounds[2] <= float(kWidth * scale_) - 2 * left) break;
+    }
     painter->DrawString(left, top - 22.f * float(scale_), about_->title);
     SetText(painter, kSubtitleSize, false, {90, 90, 90});
     float height = 46;

@@ -21,8 +21,10 @@ namespace {
 /// a closed solid those at its edges see out.
 constexpr int kDarknessPaths = 64;
 constexpr float kInnerDraw = 0.1f;
+/// Light of less than this part of the mean is rounding: of a lamp seen along its own plane.
+constexpr double kLeastLight = 1e-6;
 /// Of the file and of how receivers are chosen and traced: another one is traced anew.
-constexpr uint64_t kVersion = 2;
+constexpr uint64_t kVersion = 3;
 
 template <class T>
 uint64_t HashOf(const std::vector<T>& values, uint64_t seed) {
@@ -141,10 +143,13 @@ std::vector<VertexReceiver> LitReceivers(const TriangleMesh& mesh,
                                             candidates.begin() + int64_t(end));
     const auto atVertex = tracer.Estimate(Points(batch), few);
     const auto inside = tracer.Estimate(InnerPoints(mesh, batch), few);
+    double mean = 0;
+    for (const IrradianceEstimate& e : inside) mean += e.irradiance.Mean() / double(batch.size());
+    const auto isLit = [&](const IrradianceEstimate& e) {
+      return e.irradiance.Mean() > kLeastLight * mean;
+    };
     for (size_t i = 0; i < batch.size() && lit.size() < count; ++i) {
-      if (!atVertex[i].irradiance.IsBlack() && !inside[i].irradiance.IsBlack()) {
-        lit.push_back(batch[i]);
-      }
+      if (isLit(atVertex[i]) && isLit(inside[i])) lit.push_back(batch[i]);
     }
   }
   return lit;

@@ -13,7 +13,8 @@ namespace lambert {
 void WriteBenchTables(const std::vector<BenchRow>& rows, const std::string& folder);
 
 /// Draws ErrorAgainstTime-<scene>, ErrorAgainstElements-<scene>, TimeAgainstTriangles and
-/// Convergence, as far as there are rows for them, as PNG and SVG; needs a display. Throws Error.
+/// Convergence, as far as there are rows for them (elements: of a uniform mesh), as PNG and SVG;
+/// needs a display. Throws Error.
 void DrawBenchCharts(const std::vector<BenchRow>& rows, const std::string& folder);
 
 }  // namespace lambert

@@ -13,16 +13,18 @@ void AddOnce(const std::string& name, std::vector<std::string>* names) {
   if (std::find(names->begin(), names->end(), name) == names->end()) names->push_back(name);
 }
 
-/// Medians of the rows with the same value, by ascending value.
+/// Medians of the rows of a scene with the same value, by ascending value.
 template <class Pick>
-std::vector<BenchPoint> MediansByValue(const std::vector<BenchRow>& rows, const Pick& pick) {
+std::vector<BenchPoint> MediansByValue(const std::vector<BenchRow>& rows, const std::string& scene,
+                                       const Pick& pick) {
+  double BenchRow::*error = ErrorThatCounts(rows, scene);
   std::map<double, std::vector<BenchRow>> byValue;
   for (const BenchRow& row : rows) {
-    if (pick(row) && row.note.empty()) byValue[row.value].push_back(row);
+    if (row.scene == scene && pick(row) && row.note.empty()) byValue[row.value].push_back(row);
   }
   std::vector<BenchPoint> curve;
   for (const auto& [value, group] : byValue) {
-    curve.push_back({value, Median(group, &BenchRow::seconds), Median(group, &BenchRow::rms),
+    curve.push_back({value, Median(group, &BenchRow::seconds), Median(group, error),
                      Median(group, &BenchRow::elements)});
   }
   return curve;
@@ -35,23 +37,42 @@ EqualError CostAtError(std::vector<BenchPoint> curve, double BenchPoint::*cost, 
             [&](const BenchPoint& a, const BenchPoint& b) { return a.*cost < b.*cost; });
   std::vector<BenchPoint> front;
   for (const BenchPoint& point : curve) {
-    if (!(point.rms > 0) || !(point.*cost > 0)) continue;
-    if (front.empty() || point.rms < front.back().rms) front.push_back(point);
+    if (!(point.error > 0) || !(point.*cost > 0)) continue;
+    if (front.empty() || point.error < front.back().error) front.push_back(point);
   }
   if (front.empty()) return {};
-  if (front.front().rms <= wanted) return {EqualErrorKind::AtMost, front.front().*cost};
+  if (front.front().error <= wanted) return {EqualErrorKind::AtMost, front.front().*cost};
   for (size_t i = 1; i < front.size(); ++i) {
     const BenchPoint &coarse = front[i - 1], &fine = front[i];
-    if (fine.rms > wanted) continue;
-    const double part = std::log(wanted / coarse.rms) / std::log(fine.rms / coarse.rms);
+    if (fine.error > wanted) continue;
+    const double part = std::log(wanted / coarse.error) / std::log(fine.error / coarse.error);
     return {EqualErrorKind::Interpolated, coarse.*cost * std::pow(fine.*cost / coarse.*cost, part)};
   }
   if (!isMonteCarlo) return {};
-  const double shortfall = front.back().rms / wanted;
+  const double shortfall = front.back().error / wanted;
   return {EqualErrorKind::Extrapolated, front.back().*cost * shortfall * shortfall};
 }
 
 }  // namespace
+
+double BenchRow::*ErrorThatCounts(const std::vector<BenchRow>& rows, const std::string& scene) {
+  constexpr double kLeastError = 0.05, kWidest = 0.3;
+  std::vector<BenchRow> widths;
+  for (const bool bakeAlone : {true, false}) {
+    for (const BenchRow& row : rows) {
+      if (row.scene != scene || !(row.rms >= kLeastError)) continue;
+      if (bakeAlone && (row.study != "sweep" || row.method != "reference")) continue;
+      widths.emplace_back();
+      widths.back().rms = (row.rmsHigh - row.rmsLow) / row.rms;
+    }
+    if (!widths.empty()) break;
+  }
+  return Median(widths, &BenchRow::rms) > kWidest ? &BenchRow::bounded : &BenchRow::rms;
+}
+
+std::string ErrorName(const std::vector<BenchRow>& rows, const std::string& scene) {
+  return ErrorThatCounts(rows, scene) == &BenchRow::rms ? "relative RMS error" : "bounded error";
+}
 
 std::vector<std::string> ScenesOf(const std::vector<BenchRow>& rows, const std::string& study) {
   std::vector<std::string> names;
@@ -71,8 +92,8 @@ std::vector<std::string> MethodsOf(const std::vector<BenchRow>& rows, const std:
 
 std::vector<BenchPoint> SweepCurve(const std::vector<BenchRow>& rows, const std::string& scene,
                                    const std::string& method) {
-  std::vector<BenchPoint> curve = MediansByValue(rows, [&](const BenchRow& row) {
-    return row.study == "sweep" && row.scene == scene && row.method == method;
+  std::vector<BenchPoint> curve = MediansByValue(rows, scene, [&](const BenchRow& row) {
+    return row.study == "sweep" && row.method == method;
   });
   if (!IsFinerUpward(FindBenchMethod(method).knob)) std::reverse(curve.begin(), curve.end());
   return curve;
@@ -99,8 +120,8 @@ double Median(const std::vector<BenchRow>& rows, double BenchRow::*number) {
 
 std::vector<BenchPoint> ConvergenceCurve(const std::vector<BenchRow>& rows,
                                          const std::string& scene) {
-  return MediansByValue(
-      rows, [&](const BenchRow& row) { return row.study == "convergence" && row.scene == scene; });
+  return MediansByValue(rows, scene,
+                        [&](const BenchRow& row) { return row.study == "convergence"; });
 }
 
 std::vector<std::vector<BenchRow>> TessellationGroups(const std::vector<BenchRow>& rows) {

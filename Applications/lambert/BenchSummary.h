@@ -10,8 +10,16 @@ namespace lambert {
 
 /// The median of the runs with one value of a method's knob.
 struct BenchPoint {
-  double value = 0, seconds = 0, rms = 0, elements = 0;
+  double value = 0, seconds = 0, error = 0, elements = 0;
 };
+
+/// The error that counts on a scene: rms; bounded where the intervals of the former are wider than
+/// 30 % of it. The intervals are those of the path-traced bake, whose error is spread over all
+/// vertices (of all methods where it was not run): the median of the runs with an rms of 5 % or
+/// more.
+double BenchRow::*ErrorThatCounts(const std::vector<BenchRow>& rows, const std::string& scene);
+/// "relative RMS error" or "bounded error".
+std::string ErrorName(const std::vector<BenchRow>& rows, const std::string& scene);
 
 /// Errors at which methods are compared.
 constexpr double kEqualErrors[] = {0.1, 0.05, 0.02, 0.01};

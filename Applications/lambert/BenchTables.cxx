@@ -76,13 +76,14 @@ std::vector<MethodAtErrors> AtErrors(const std::vector<BenchRow>& rows, const st
 }
 
 void WriteEqualErrorCsv(const std::vector<BenchRow>& rows, std::ostream& out) {
-  out << "scene,method,error,seconds,how,times_as_fast_as_bake,bake_how,elements,elements_how\n";
+  out << "scene,method,measure,error,seconds,how,times_as_fast_as_bake,bake_how,elements,elements_"
+         "how\n";
   const auto field = [](double value) { return std::isnan(value) ? "" : Format("%.4g", value); };
   for (const std::string& scene : ScenesOf(rows, "sweep")) {
     for (const MethodAtErrors& at : AtErrors(rows, scene)) {
       for (size_t i = 0; i < at.seconds.size(); ++i) {
-        out << scene << ',' << at.method << ',' << kEqualErrors[i] << ','
-            << field(at.seconds[i].cost) << ',' << KindName(at.seconds[i].kind) << ','
+        out << scene << ',' << at.method << ',' << ErrorName(rows, scene) << ',' << kEqualErrors[i]
+            << ',' << field(at.seconds[i].cost) << ',' << KindName(at.seconds[i].kind) << ','
             << field(at.Speed(i)) << ',' << KindName(at.bake[i].kind) << ','
             << field(at.elements[i].cost) << ',' << KindName(at.elements[i].kind) << '\n';
       }
@@ -101,8 +102,8 @@ void WriteErrorHeader(const char* first, std::ostream& out) {
 
 void WriteScene(const std::vector<BenchRow>& rows, const std::string& scene, std::ostream& out) {
   const std::vector<MethodAtErrors> all = AtErrors(rows, scene);
-  out << "\n## " << scene
-      << "\n\nSeconds at equal error (times as fast as the path-traced bake):\n\n";
+  out << "\n## " << scene << "\n\nSeconds at equal " << ErrorName(rows, scene)
+      << " (times as fast as the path-traced bake):\n\n";
   WriteErrorHeader("method", out);
   for (const MethodAtErrors& at : all) {
     out << "| " << Label(at.method) << " |";
@@ -121,7 +122,7 @@ void WriteScene(const std::vector<BenchRow>& rows, const std::string& scene, std
     out << '\n';
   }
 
-  out << "\nElements at equal error:\n\n";
+  out << "\nElements at the same:\n\n";
   WriteErrorHeader("method", out);
   for (const MethodAtErrors& at : all) {
     if (!FindBenchMethod(at.method).hasElements) continue;
@@ -151,9 +152,9 @@ void WriteConvergence(const std::vector<BenchRow>& rows, std::ostream& out) {
       for (const BenchPoint& point : curve) {
         if (point.seconds <= seconds) shown = &point;
       }
-      out << ' ' << (shown ? Percent(shown->rms) : "nothing") << " |";
+      out << ' ' << (shown ? Percent(shown->error) : "nothing") << " |";
     }
-    out << ' ' << Number(curve.front().seconds) << " s, " << Percent(curve.front().rms) << " |\n";
+    out << ' ' << Number(curve.front().seconds) << " s, " << Percent(curve.front().error) << " |\n";
   }
 }
 
