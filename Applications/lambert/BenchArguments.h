@@ -36,7 +36,7 @@ struct BenchArguments {
   // The other studies.
   int64_t largest = 5000000;       ///< triangles of the finest tessellation
   double tessellationError = 0.1;  ///< wanted of each
-  double convergenceError = 0.01;  ///< wanted of the run that is watched
+  double convergenceError = 0.02;  ///< wanted of the run that is watched
   double convergenceSeconds = 30;  ///< after which it is not watched any more
 
   bool quick = false;   ///< few and coarse runs: to see that all works
