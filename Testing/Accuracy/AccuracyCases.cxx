@@ -26,7 +26,9 @@ AccuracyCase& AddFormFactor(Table* table, const std::string& name, double truth,
                             const Polygon& source, const Polygon& receiver,
                             const Polygon& blocker = {}) {
   const auto scene = [=] { return SourceAndReceiver(source, receiver, blocker); };
-  return Add(table, name, scene, {Asked("F", Kind::FormFactor, truth)});
+  AccuracyCase& added = Add(table, name, scene, {Asked("F", Kind::FormFactor, truth)});
+  added.needs = kVariesOverFaces;
+  return added;
 }
 
 /// Of a name.
@@ -125,7 +127,7 @@ void AddPolygons(Table* table) {
 void AddBlockers(Table* table) {
   const auto add = [&](const std::string& name, double truth, float corner) {
     AddFormFactor(table, name, truth, Floor(0), Ceiling(1), Floor(0.5f, 0.5f, 0.5f, corner, corner))
-        .needs = kVisibility;
+        .needs |= kVisibility;
   };
   add("11 blocker in the corner", 0.1498686718, 0);
   add("11 blocker in the middle", 0.0995062946, 0.25f);
@@ -158,15 +160,17 @@ void AddEvenScenes(Table* table) {
     Add(table, "12 furnace " + Digits(rho, 4), scene,
         {Asked("B", Kind::MeanRadiosity, 1 / (1 - rho))})
         .request = kEvenRequest;
+    if (rho > 0.9) table->back().needs = kLongBounces;
   }
   AccuracyCase& withBox =
       Add(table, "12 furnace with a box 0.80", [] { return FurnaceWithBox(0.8f); },
           {Asked("B", Kind::MeanRadiosity, 5)});
-  withBox.needs = kVisibility, withBox.request = kEvenRequest;
+  withBox.needs = kVisibility | kLongBounces, withBox.request = kEvenRequest;
 
   for (const auto& [rho, port, truth] :
        {std::tuple(.98, .05, 14.2028985507), std::tuple(.9, .02, 7.6271186441)}) {
     AddBowl(table, "13 integrating sphere " + Digits(rho, 4), truth, 1 - port, rho, rho);
+    table->back().needs = kLongBounces;
   }
   for (const auto& [degrees, truth] :
        {std::pair(40, 1.0621223569), std::pair(60, 1.1428571429), std::pair(80, 1.2603791523)}) {
@@ -220,7 +224,7 @@ void AddRooms(Table* table) {
   asked.back().lastDigit = 5e-6;
   Add(
       table, "16 room under a black ceiling", [] { return BoxRoom(1, 0.5f, 1); }, asked)
-      .needs = kVaryingLight;
+      .needs = kVaryingLight | kVariesOverFaces;
 
   // CIE 171:2006, case 5.8: validated against, no more. Direct light is 10,000 lm / 96 m2.
   for (const auto& [rho, truth] :
@@ -230,13 +234,15 @@ void AddRooms(Table* table) {
     q.scale = kLumensPerWatt, q.offset = -10000.0 / 96, q.lastDigit = 5e-5;
     const auto scene = [rho = rho] { return LampInCube(rho); };
     Add(table, "17 CIE 171 5.8 " + Digits(double(rho), 4), scene, {q}).needs =
-        kVaryingLight | kPointLight;
+        kVaryingLight | kVariesOverFaces | kPointLight;
   }
 }
 
 }  // namespace
 
 const KnownFault* FindKnownFault(const std::string& asked, const std::string& method) {
+  static constexpr const char* kEndless =
+      "does not end at points of the lamp itself that rounding puts before its plane";
   static const std::vector<KnownFault> faults{
       {"1 parallel squares at 10", "hierarchical", 1,
        "the 64 rays by which a side looks for light miss a lamp that fills 0.3 % of its view"},
@@ -244,6 +250,9 @@ const KnownFault* FindKnownFault(const std::string& asked, const std::string& me
        "form factors are cut to a sum of 0.7 where light seems to grow"},
       {"17 CIE 171 5.8 0.95", "hierarchical", 0.25,
        "form factors are cut to a sum of 0.7 where light seems to grow"},
+      {"10 triangle z", "cached", 0, kEndless},
+      {"10 triangle x z", "cached", 0, kEndless},
+      {"10 triangle y z", "cached", 0, kEndless},
   };
   for (const KnownFault& fault : faults) {
     if (asked == fault.asked && method == fault.method) return &fault;

@@ -33,6 +33,8 @@ enum Need : unsigned {
   kVaryingLight = 2,  ///< reflected light varies over a surface
   kPointLight = 4,
   kOneValueASurface = 8,  ///< the truth is that of a system of one value a surface
+  kLongBounces = 32,      ///< light bounces so often that shooting it takes minutes
+  kVariesOverFaces = 16,  ///< light varies over faces: what their corners receive is not enough
 };
 
 struct AccuracyCase {
@@ -46,7 +48,8 @@ struct AccuracyCase {
   double request = 0.05;  ///< error that solvers are asked for
 };
 
-/// What a method is known to miss: wrong by up to `tolerance` of the truth, and why.
+/// What a method is known to miss: wrong by up to `tolerance` of the truth, and why. Where that is
+/// 0 it does not end, and is not asked.
 struct KnownFault {
   const char* asked;
   const char* method;
