@@ -15,6 +15,17 @@ Vec3d DoubleArea(const Vec3d* p, int count) {
   return sum;
 }
 
+/// True where the emitting side faces the origin. Points of its own plane see none of a polygon:
+/// single precision puts them before it or behind it, by less than this part of its distance.
+bool FacesOrigin(const Vec3d* p, int count) {
+  constexpr double kRounding = 1e-6;
+  const Vec3d normal = DoubleArea(p, count);
+  double farthest = 0;
+  for (int i = 0; i < count; ++i) farthest = std::max(farthest, LengthSquared(p[i]));
+  const double height = -Dot(normal, p[0]);
+  return height > 0 && height * height > kRounding * kRounding * LengthSquared(normal) * farthest;
+}
+
 /// Sum over edges of the angle that the edge subtends times the unit normal of its plane through
 /// the origin.
 Vec3d EdgeSum(const Vec3d* p, int count) {
@@ -36,8 +47,7 @@ Vec3d EdgeSum(const Vec3d* p, int count) {
 Vec3d PolygonIrradiance(const Vec3f* corners, int count, const Vec3f& x) {
   Vec3d p[kMaximumPolygonCorners];
   for (int i = 0; i < count; ++i) p[i] = Vec3d(corners[i]) - Vec3d(x);
-  // The emitting side faces x where the area's normal points toward it.
-  if (Dot(DoubleArea(p, count), p[0]) >= 0) return {};
+  if (!FacesOrigin(p, count)) return {};
   // Counter-clockwise from the emitting side, seen from x, makes the edge normals point away from
   // the polygon's inside.
   return EdgeSum(p, count) * (-1 / (2 * kPi));
@@ -54,7 +64,7 @@ Vec3d PolygonIrradianceAbove(const Vec3f* corners, int count, const Vec3f& x,
     height[i] = Dot(p[i], up);
     (height[i] > 0 ? anyAbove : anyBelow) = true;
   }
-  if (!anyAbove || Dot(DoubleArea(p, count), p[0]) >= 0) return {};
+  if (!anyAbove || !FacesOrigin(p, count)) return {};
   if (!anyBelow) return EdgeSum(p, count) * (-1 / (2 * kPi));
 
   // Clip at the horizon.

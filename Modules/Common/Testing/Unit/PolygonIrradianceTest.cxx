@@ -89,6 +89,24 @@ TEST(PolygonIrradiance, APointOnThePolygonOrOnItsEdgeStaysFinite) {
   }
 }
 
+// Rounding must not tell on which side of itself a point of the polygon lies: found in a random
+// scene, where the quadrangle gave minus the normal.
+TEST(PolygonIrradiance, NothingFromThePolygonThatAPointLiesOn) {
+  const Polygon quadrangle{{0.350636691f, 0.205235824f, 0.0753779113f},
+                           {0.27547586f, 0.247327387f, 0.0839698613f},
+                           {0.336982787f, 0.340242326f, 0.166835487f},
+                           {0.380050182f, 0.327485383f, 0.169931844f}};
+  const Vec3f x(0.324825674f, 0.268775046f, 0.112974666f), n(0.223732f, 0.562046f, -0.796272f);
+  EXPECT_EQ(FormFactorAt(quadrangle, x, n), 0);
+  EXPECT_EQ(FormFactorAt(quadrangle, x, -n), 0);
+  EXPECT_EQ(IrradianceOf(quadrangle, x), Vec3d());
+  // A hundred times as far as rounding goes is before it, which fills the hemisphere but for what
+  // passes its nearest edge, some h / r of it with r = 0.03.
+  const Vec3f front =
+      Normalize(Cross(quadrangle[1] - quadrangle[0], quadrangle[2] - quadrangle[0]));
+  EXPECT_NEAR(FormFactorAt(quadrangle, x + front * 1e-5f, -front), 1, 1e-3);
+}
+
 TEST(PolygonIrradiance, ParallelRectangles) {
   // Midpoint rule, 64 x 64 cells: below 1e-4 at a gap of the size of the squares.
   const Vec3f o(0, 0, 0), x(1, 0, 0), y(0, 1, 0);
