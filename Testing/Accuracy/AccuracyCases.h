@@ -48,8 +48,7 @@ struct AccuracyCase {
   double request = 0.05;  ///< error that solvers are asked for
 };
 
-/// What a method is known to miss: wrong by up to `tolerance` of the truth, and why. Where that is
-/// 0 it does not end, and is not asked.
+/// What a method is known to miss: wrong by up to `tolerance` of the truth, and why.
 struct KnownFault {
   const char* asked;
   const char* method;

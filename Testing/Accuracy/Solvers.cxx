@@ -1,5 +1,6 @@
 #include "Solvers.h"
 
+#include "Classical/Core/CachedRadiosity.h"
 #include "Classical/Core/MatrixRadiosity.h"
 #include "Classical/Core/ProgressiveRadiosity.h"
 #include "Radiosity/Core/HierarchicalRadiosity.h"
@@ -34,12 +35,19 @@ RadiositySolution SolveProgressive(double error, Scene* scene, SolverStatistics*
   return SolveProgressiveRadiosity(*scene, options, statistics);
 }
 
+RadiositySolution SolveCached(double, Scene* scene, SolverStatistics* statistics) {
+  CachedRadiosityOptions options;
+  options.elementSize = kElementSize;
+  return SolveCachedRadiosity(*scene, options, statistics);
+}
+
 }  // namespace
 
 const std::vector<Solver>& Solvers() {
   static const std::vector<Solver> solvers{{"hierarchical", SolveHierarchical, 2},
                                            {"matrix", SolveMatrix, 12},
-                                           {"progressive", SolveProgressive, 12}};
+                                           {"progressive", SolveProgressive, 12},
+                                           {"cached", SolveCached, 12}};
   return solvers;
 }
 

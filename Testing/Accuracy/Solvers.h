@@ -16,7 +16,7 @@ struct Solver {
   size_t seedsApart;  ///< it is put to every so many-th of the seeds of a law
 };
 
-/// Hierarchical, matrix and progressive radiosity. Cached radiosity does not end in such scenes.
+/// Hierarchical, matrix, progressive and cached radiosity.
 const std::vector<Solver>& Solvers();
 
 }  // namespace lambert::testing

@@ -11,6 +11,9 @@ namespace {
 constexpr size_t kFewEmitters = 32;
 /// Pieces that an emitter's closed form may be taken at, for one point.
 constexpr size_t kMostPieces = 512;
+/// Shorter edges, relative to their distance from the origin, are not halved: their middles would
+/// be rounded onto corners, and the halves be nothing and the whole, for ever.
+constexpr float kShortestEdge = 1e-5f;
 /// Additive recurrence after the generalized golden ratio of 2 dimensions (Roberts 2018).
 constexpr double kPlane[2] = {0.7548776662466927, 0.5698402909980532};
 
@@ -103,6 +106,7 @@ Spectrum SourceLight::FromFewEmitters(const LightReceiver& at, int count, Random
       }
       const int next = (longest + 1) % 3;
       const Vec3f middle = (whole.corners[longest] + whole.corners[next]) * 0.5f;
+      if (length < kShortestEdge * kShortestEdge * LengthSquared(middle)) break;
       Piece half = whole;
       half.corners[longest] = middle;
       whole.corners[next] = middle;

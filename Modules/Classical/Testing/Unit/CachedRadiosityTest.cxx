@@ -39,7 +39,7 @@ Spectrum MeanOverQuad(const RadiositySolution& solution, const std::vector<Spect
   return sum / area;
 }
 
-// A closed room that shines and reflects alike everywhere (VALIDATION.md, case 12): B = 1 / (1 -
+// A closed room that shines and reflects alike everywhere: B = 1 / (1 -
 // rho) at every point. All rays read the same light and the closed form of what surrounds a point
 // is 1, so that nothing is left to chance: the sweeps end within 0.1 %, the sum of them in float
 // adds less.
@@ -247,6 +247,41 @@ TEST(CachedRadiosity, DegenerateFaces) {
     }
   }
   EXPECT_NEAR(MeanOverQuad(solution, solution.radiosity, 2 * testing::kFloor).g / 0.15517, 1, 0.05);
+}
+
+// A slanted lamp above a facet of 2 cm: points of the lamp lie in its own plane but for rounding.
+// The facet sees all of it, so that its light is the closed form; it varies by 4e-4 over 2 cm.
+TEST(CachedRadiosity, ASlantedLampIsCutToAnEnd) {
+  Scene scene;
+  TriangleMesh& mesh = scene.mesh;
+  testing::AddQuad(&mesh, {0.29f, 0.29f, 0}, {0.02f, 0, 0}, {0, 0.02f, 0}, Spectrum(0.f));
+  testing::AddTriangle(&mesh, {0.2f, 0.1f, 1}, {0.5f, 1.3f, 1.4f}, {1.5f, 0.3f, 0.8f},
+                       Spectrum(0.f), Spectrum(1.f));
+  testing::CompleteTables(&scene);
+  const RadiositySolution solution = Solve(scene, 0.05, 16, 64);
+  EXPECT_NEAR(MeanOverQuad(solution, solution.irradiance, 0).g / 0.1285844918, 1, 1e-3);
+}
+
+// So far from the origin that a lamp is as small as coordinates are apart: the middles of its edges
+// are its corners. Cut there it would lose its light, or be cut for ever.
+TEST(CachedRadiosity, ALampTooSmallToBeCut) {
+  constexpr float kFar = 1048576, kApart = 0.125f;  // 2^20, and 2^-23 of it
+  for (const float shift : {0.f, kApart}) {         // whose middles are rounded this way or that
+    Scene scene;
+    const float x = kFar + shift, z = kFar + 4 * kApart;
+    testing::AddTriangle(&scene.mesh, {x, x, z}, {x, x + kApart, z}, {x + kApart, x, z},
+                         Spectrum(0.f), Spectrum(1.f));
+    testing::CompleteTables(&scene);
+    const RayScene rays(scene.mesh);
+    const SourceLight sources(scene, rays);
+    Random random(1);
+    int64_t cast = 0;
+    const LightReceiver below{{x, x, kFar}, {0, 0, 1}, {0, 0, 1}};
+    // Area over pi times the squared distance, less what its far corners are farther: 1 / 8.
+    const double expected = 0.5 / (16 * kPi);
+    EXPECT_NEAR(sources.FromEmitters(below, 64, &random, &cast).g / expected, 1, 0.125);
+    EXPECT_GT(cast, 0);
+  }
 }
 
 TEST(CachedRadiosity, DarkAndEmptyScenes) {
