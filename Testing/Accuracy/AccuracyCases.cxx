@@ -242,8 +242,6 @@ void AddRooms(Table* table) {
 
 const KnownFault* FindKnownFault(const std::string& asked, const std::string& method) {
   static const std::vector<KnownFault> faults{
-      {"1 parallel squares at 10", "hierarchical", 1,
-       "the 64 rays by which a side looks for light miss a lamp that fills 0.3 % of its view"},
       {"12 furnace 0.95", "hierarchical", 0.25,
        "form factors are cut to a sum of 0.7 where light seems to grow"},
       {"17 CIE 171 5.8 0.95", "hierarchical", 0.25,

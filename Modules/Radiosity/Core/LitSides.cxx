@@ -4,6 +4,7 @@
 
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
+#include "Visibility/Core/EmitterTree.h"
 
 namespace lambert {
 
@@ -34,10 +35,24 @@ bool SeesLight(const Scene& scene, const RayScene& rayScene, const Vec3f& x, con
   return false;
 }
 
+/// The emitting side, 2 x surface + side, of an emitter that is seen from x; -1 where the one that
+/// is picked is not. Finds lamps that are too small for rays in all directions.
+int32_t SeenEmitter(const TriangleMesh& mesh, const RayScene& rayScene, const EmitterTree& emitters,
+                    const Vec3f& x, const Vec3f& n, Random* random) {
+  const double u[3] = {random->UniformDouble(), random->UniformDouble(), random->UniformDouble()};
+  const EmitterTree::Sample sample = emitters.Pick(x, n, u);
+  if (sample.face < 0 || !(sample.density > 0) || Dot(n, sample.direction) <= 0) return -1;
+  const Side side = Dot(mesh.VectorArea(sample.face), sample.direction) < 0 ? kFront : kBack;
+  if (!mesh.Emits(sample.face, side)) return -1;
+  if (rayScene.Occluded(x, x + sample.direction * sample.distance)) return -1;
+  return 2 * mesh.surfaceId[size_t(sample.face)] + side;
+}
+
 SideView LookAround(const Scene& scene, const ClusterNode& root, int32_t side,
-                    const RayScene& rayScene, bool hasSky) {
+                    const RayScene& rayScene, const EmitterTree& emitters, bool hasSky) {
   const TriangleMesh& mesh = scene.mesh;
   SideView view;
+  int32_t emitter = -1;
   const int rays =
       std::min(kMaximumRaysPerSide, std::max(kRaysPerSide, root.faceCount / kFacesPerRay));
   Random random(HashBits(uint64_t(root.firstFace), uint64_t(side)));
@@ -60,6 +75,10 @@ SideView LookAround(const Scene& scene, const ClusterNode& root, int32_t side,
     const Vec3f direction = u * d.x + v * d.y + n * d.z;
     ++view.rays;
     view.seesLight = view.seesLight || SeesLight(scene, rayScene, x, n);
+    if (!view.seesLight && emitter < 0 && !emitters.IsEmpty()) {
+      ++view.rays;
+      emitter = SeenEmitter(mesh, rayScene, emitters, x, n, &random);
+    }
     const RayHit hit = rayScene.Closest(x, direction);
     if (hit.face < 0) {
       view.seesLight = view.seesLight || hasSky;
@@ -68,6 +87,7 @@ SideView LookAround(const Scene& scene, const ClusterNode& root, int32_t side,
     const bool fromFront = Dot(direction, mesh.VectorArea(hit.face)) < 0;
     view.seen.push_back(2 * mesh.surfaceId[size_t(hit.face)] + (fromFront ? kFront : kBack));
   }
+  if (emitter >= 0) view.seen.push_back(emitter);
   std::sort(view.seen.begin(), view.seen.end());
   view.seen.erase(std::unique(view.seen.begin(), view.seen.end()), view.seen.end());
   return view;
@@ -89,10 +109,11 @@ std::vector<uint8_t> FindLitSides(const Scene& scene, const ClusterTree& tree,
   const bool hasSky = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) {
     return l.type == LightType::Sky && !l.intensity.IsBlack();
   });
+  const EmitterTree emitters(scene.mesh);
   std::vector<SideView> views(static_cast<size_t>(2 * surfaces));
   ParallelForEach(2 * surfaces, 4, [&](int64_t i) {
     const ClusterNode& root = tree.nodes[size_t(tree.surfaceRoots[size_t(i / 2)])];
-    views[size_t(i)] = LookAround(scene, root, int32_t(i % 2), rayScene, hasSky);
+    views[size_t(i)] = LookAround(scene, root, int32_t(i % 2), rayScene, emitters, hasSky);
   });
 
   // Seeing is mutual.

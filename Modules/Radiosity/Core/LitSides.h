@@ -11,8 +11,9 @@
 namespace lambert {
 
 /// Per surface, bit 1 where light reaches its front, bit 2 its back. Rays from samples of every
-/// side tell which sides see each other, a light or the sky; a side is lit that emits or sees a lit
-/// one, directly or over others. Sampled, so that a side that sees light only through a chink may
+/// side tell which sides see each other or the sky, rays to lights and to emitters that a sample
+/// may get most from, which of these they see; a side is lit that emits or sees a lit one, directly
+/// or over others. Sampled, so that a side that sees light only through a chink may
 /// be missed; it then stays black.
 std::vector<uint8_t> FindLitSides(const Scene& scene, const ClusterTree& tree,
                                   const RayScene& rayScene, int64_t* rays);
