@@ -122,10 +122,20 @@ void SolveArguments::AddTo(CLI::App* command) {
                    "Matrix, progressive, cached: longest edge, m; 0: 1/50 of the scene's diagonal")
       ->check(NotNegative())
       ->capture_default_str();
+  command
+      ->add_option("--output-size", method.cached.outputSize,
+                   "Cached: longest edge of the output, m; 0: the element size")
+      ->check(NotNegative())
+      ->capture_default_str();
   command->add_option("--paths", method.cached.paths, "Cached: paths an element's side")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command->add_option("--gather-rays", method.cached.gatherRays, "Cached: rays a point")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command
+      ->add_option("--emitter-rays", method.cached.emitterRays,
+                   "Cached: rays a point to emitting faces")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   command->add_option("--seed", seed, "Reference, cached: another seed, another choice of paths")

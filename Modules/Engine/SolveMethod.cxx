@@ -11,7 +11,9 @@ const std::vector<SolveMethodTraits>& SolveMethods() {
       {SolveMethod::Reference, "reference", {"--samples", "--seed"}},
       {SolveMethod::Matrix, "matrix", {"--element-size"}},
       {SolveMethod::Progressive, "progressive", {"--element-size"}},
-      {SolveMethod::Cached, "cached", {"--element-size", "--paths", "--gather-rays", "--seed"}},
+      {SolveMethod::Cached,
+       "cached",
+       {"--element-size", "--output-size", "--paths", "--gather-rays", "--emitter-rays", "--seed"}},
   };
   return methods;
 }
@@ -32,8 +34,10 @@ std::vector<std::pair<std::string, double>> ValuesOf(const SolveMethodOptions& o
       return {{"element_size", options.progressive.elementSize}};
     case SolveMethod::Cached:
       return {{"element_size", options.cached.elementSize},
+              {"output_size", options.cached.outputSize},
               {"paths", options.cached.paths},
               {"gather_rays", options.cached.gatherRays},
+              {"emitter_rays", options.cached.emitterRays},
               {"seed", static_cast<double>(options.cached.seed)}};
     case SolveMethod::Hierarchical:
       break;

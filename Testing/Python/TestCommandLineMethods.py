@@ -46,17 +46,19 @@ assert report["error"]["points"] > 0 and report["scene"]["lights"]["sky"] == 1
 for method, options, values in (
         ("matrix", [], {}),
         ("progressive", [], {}),
-        ("cached", ["--paths", "32", "--gather-rays", "16", "--seed", "3"], {"paths": 32, "gather_rays": 16, "seed": 3})):
+        ("cached", ["--output-size", "0.05", "--paths", "24", "--gather-rays", "16", "--emitter-rays", "8", "--seed", "3"],
+         {"output_size": 0.05, "paths": 24, "gather_rays": 16, "emitter_rays": 8, "seed": 3})):
     report = solve(CORNELL_BOX, "-o", out, "--method", method, "--element-size", "0.1", *options, "--verify", "200")
     assert report["method"] == {"name": method, "element_size": 0.1, **values}, report["method"]
     assert report["output"]["triangles"] > report["scene"]["triangles"], method
     assert report["error"]["bounded"] < 0.2 and abs(report["error"]["bias"]) < 0.1, (method, report["error"])
 
 # An option of another method is wrong usage, said in one sentence that names both.
-for method, options in (("hierarchical", ["--samples", "--seed", "--element-size", "--paths", "--gather-rays"]),
+for method, options in (("hierarchical", ["--samples", "--seed", "--element-size", "--output-size", "--paths", "--gather-rays",
+                                         "--emitter-rays"]),
                         ("reference", ["--error", "--time", "--iterations", "--element-size", "--paths", "--gather-rays"]),
-                        ("matrix", ["--error", "--samples", "--seed", "--paths", "--gather-rays"]),
-                        ("progressive", ["--error", "--samples", "--seed", "--paths", "--gather-rays"]),
+                        ("matrix", ["--error", "--samples", "--seed", "--output-size", "--paths", "--gather-rays"]),
+                        ("progressive", ["--error", "--samples", "--seed", "--paths", "--gather-rays", "--emitter-rays"]),
                         ("cached", ["--error", "--time", "--iterations", "--samples"])):
     for option in options:
         fails(2, "solve", CORNELL_BOX, "-o", out, "--method", method, option, "1", says=[option, "--method " + method])
@@ -66,7 +68,8 @@ fails(2, "solve", CORNELL_BOX, "-o", out, "--samples", "9", says=["--method hier
 fails(2, "solve", CORNELL_BOX, "-o", out, "--method", "photons", says=["photons", "reference"])
 for method, option, value in (("reference", "--samples", "0"), ("reference", "--samples", "many"),
                               ("reference", "--seed", "-1"), ("matrix", "--element-size", "-1"),
-                              ("matrix", "--element-size", "nan"), ("cached", "--paths", "0"), ("cached", "--gather-rays", "0")):
+                              ("matrix", "--element-size", "nan"), ("cached", "--paths", "0"), ("cached", "--gather-rays", "0"),
+                              ("cached", "--output-size", "-1"), ("cached", "--emitter-rays", "0")):
     fails(2, "solve", CORNELL_BOX, "-o", out, "--method", method, option, value, says=[option])
 for method in ("matrix", "progressive", "cached"):  # More elements than any memory holds.
     fails(1, "solve", CORNELL_BOX, "-o", temporary("never.vtp"), "--method", method, "--element-size", "1e-6",
