@@ -37,7 +37,7 @@ RadiositySolution SolveProgressive(double error, Scene* scene, SolverStatistics*
 
 RadiositySolution SolveCached(double, Scene* scene, SolverStatistics* statistics) {
   CachedRadiosityOptions options;
-  options.elementSize = kElementSize;
+  options.elementSize = kElementSize / 2;  // cells mix what lies beside one another
   return SolveCachedRadiosity(*scene, options, statistics);
 }
 

@@ -94,9 +94,9 @@ Spectrum SourceLight::FromFewEmitters(const LightReceiver& at, int count, Random
 
   // Halve the longest edge of what is worth more than a ray. One half takes the place of the whole,
   // the other goes behind.
-  const float step = total / float(count);
+  const float worthARay = total / float(count);
   for (size_t i = 0; i < pieces.size(); ++i) {
-    while (pieces[i].strength > step && pieces.size() < kMostPieces) {
+    while (pieces[i].strength > worthARay && pieces.size() < kMostPieces) {
       Piece& whole = pieces[i];
       int longest = 0;
       float length = -1;
@@ -116,12 +116,16 @@ Spectrum SourceLight::FromFewEmitters(const LightReceiver& at, int count, Random
     }
   }
 
-  // Rays.
+  // Rays. Rounding at points near a lamp's plane lets its pieces sum up to other than the whole.
+  float all = 0;
+  for (const Piece& piece : pieces) all += piece.strength;
+  const float step = all / float(count), first = random->Uniform();
   Spectrum sum;
-  float below = 0, next = random->Uniform() * step;
+  float below = 0;
+  int ray = 0;
   for (const Piece& piece : pieces) {
     below += piece.strength;
-    for (; next < below; next += step) {
+    for (; ray < count && (float(ray) + first) * step < below; ++ray) {
       const float u = random->Uniform(), v = random->Uniform();
       const Vec2f b = UniformTriangle(u, v);
       const Vec3f place = piece.corners[0] + (piece.corners[1] - piece.corners[0]) * b.x +
