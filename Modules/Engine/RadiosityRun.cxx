@@ -131,13 +131,20 @@ void RadiosityRun::Solve(const ProgressCallback& progress, const std::function<b
   Timer timer;
   TimeBudget budget(this->options_.timeLimit, this->options_.outputSeconds);
   std::string stoppedBy;
-  HierarchicalRadiosity solver(this->scene_, this->tree_, this->options_.solver);
+  HierarchicalRadiosityOptions options = this->options_.solver;
+  if (this->options_.timeLimit > 0) {
+    options.timeLimit = std::max(
+        1e-3, this->options_.timeLimit - SecondsSinceProcessStart() - this->options_.outputSeconds);
+  }
+  HierarchicalRadiosity solver(this->scene_, this->tree_, options);
+  bool hasLight = false;
   solver.Run(
       [&](double fraction, const char* stage) {
         Report(progress, fraction, stage);
-        return true;
+        return !(hasLight && interrupted && interrupted());
       },
       [&](const IterationRecord& record) {
+        hasLight = true;
         if (observer) {
           observer(record);
         }

@@ -98,7 +98,8 @@ Json HistoryJson(const SolverStatistics& s) {
                        {"elements", record.elements},
                        {"links", record.links},
                        {"rays", record.rays},
-                       {"change", record.change}});
+                       {"change", record.change},
+                       {"error", record.error < 0 ? Json() : Json(record.error)}});
   }
   return history;
 }

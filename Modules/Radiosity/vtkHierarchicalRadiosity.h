@@ -8,7 +8,7 @@
  * the refined mesh with `Irradiance` and `Radiosity` (W/m2) at its points; `InputFaceId` counts the
  * triangles of input port 0. The tables of the input (materials, parts, lights) come along.
  * Output port 1: the history, a row an iteration (iteration, seconds, threshold, elements, links,
- * rays, change). Output port 2: the input as it came, plus `Irradiance` and `Radiosity` at its
+ * rays, change, error). Output port 2: the input as it came, plus `Irradiance` and `Radiosity` at its
  * points (their brighter side, the mean where the faces about a point have several normals).
  *
  * While it runs: ProgressEvent; AbortExecute ends the run and keeps its last whole iteration. After

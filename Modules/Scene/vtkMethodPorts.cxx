@@ -78,6 +78,7 @@ void FillHistory(const SolverStatistics& statistics, vtkTable* output) {
   addColumn("links", [](const Record& r) { return r.links; });
   addColumn("rays", [](const Record& r) { return r.rays; });
   addColumn("change", [](const Record& r) { return r.change; });
+  addColumn("error", [](const Record& r) { return r.error; });
 }
 
 void FillInputMesh(const RadiositySolution& solution, const MethodScene& methodScene,

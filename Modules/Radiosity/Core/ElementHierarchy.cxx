@@ -318,6 +318,12 @@ bool ElementHierarchy::BelowFloor(const Element& element) const {
          element.polygonCount + 2 > kMaximumPolygonCorners;
 }
 
+float ElementHierarchy::Floor(int32_t face) const {
+  const int32_t surface = scene_.mesh.surfaceId[size_t(face)];
+  const Box3f& bounds = tree_.nodes[size_t(tree_.surfaceRoots[size_t(surface)])].bounds;
+  return std::max(kFloorOfSurface * bounds.Diagonal(), kFloorOfScene * diagonal_);
+}
+
 void ElementHierarchy::Split(const std::vector<int32_t>& parents) {
   // Where the children come from: the cluster tree, or a cut through the polygon.
   struct Request {

@@ -46,8 +46,12 @@ class ElementHierarchy {
   const std::vector<std::vector<int32_t>>& Levels() const { return levels_; }
 
   LeafMesh& Leaves() { return leafMesh_; }
+  const LeafMesh& Leaves() const { return leafMesh_; }
   const Scene& GetScene() const { return scene_; }
   const ClusterTree& Tree() const { return tree_; }
+  /// Size below which what lies in a face is not split: 1e-3 of its surface, never under 1e-6 of
+  /// the scene, m.
+  float Floor(int32_t face) const;
   float SceneDiagonal() const { return diagonal_; }
 
  private:

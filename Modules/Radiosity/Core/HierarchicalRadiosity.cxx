@@ -3,16 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Random.h"
 #include "Common/Core/Timer.h"
 #include "Radiosity/Core/EnergyBalance.h"
 #include "Radiosity/Core/ExposureSplitting.h"
+#include "Radiosity/Core/FinalGather.h"
+#include "Radiosity/Core/GatheredSolution.h"
 #include "Radiosity/Core/LightExchange.h"
 #include "Radiosity/Core/LightReconstruction.h"
 #include "Radiosity/Core/LinkRefinement.h"
 #include "Radiosity/Core/LitSides.h"
 #include "Radiosity/Core/RefinedMesh.h"
+#include "Reference/Core/SolutionError.h"
 #include "Visibility/Core/RayScene.h"
 
 namespace lambert {
@@ -31,9 +36,35 @@ constexpr double kExposureThreshold = 0.1;
 /// Light grows where the change has not fallen after this many sweeps.
 constexpr int kGrowthSweeps = 10;
 
-/// Threshold, as a fraction of the power, that gives a wanted relative error; measured
+/// Threshold, as a fraction of the power, to which links are refined for a wanted relative error.
+/// The final gather sees leaves from afar: they may be coarser than what is delivered; measured
 /// (Documentation/Stages).
-double FinalThreshold(double error) { return 2e-6 * std::pow(error / 0.05, 1.5); }
+double FinalThreshold(double error) { return 1.6e-5 * std::pow(error / 0.05, 1.5); }
+
+/// Share of the progress that the final gather takes.
+constexpr double kGatherShare = 0.6;
+/// Iterations of final gather before it is said that the error cannot be met.
+constexpr int kMostGathers = 4;
+/// The next gather aims this far below the wanted error, and takes about this many times as long.
+constexpr double kAimBelow = 0.85, kGatherGrowth = 2;
+/// Points that are gathered at to predict how long all take, and the reserve for what they leave
+/// out (leaves, cut triangles, verification).
+constexpr int64_t kTrialPoints = 1024;
+constexpr double kTrialReserve = 2;
+/// Paths a point for verification.
+constexpr int kVerificationSamples = 256;
+
+/// The final gather that usually gives a wanted relative error, measured (Documentation/Stages).
+GatheredSolutionOptions GatherFor(double error) {
+  GatheredSolutionOptions options;
+  options.gather.rays = std::min(1024, std::max(25, int(0.12 / (error * error))));
+  options.gather.direct.rays = error > 0.03 ? 8 : 16;
+  options.gather.direct.penumbraRays = std::min(256, std::max(8, int(1.2 / error)));
+  return options;
+}
+/// What interpolation may leave at first, of the wanted error; and the rounds of cutting it takes.
+constexpr double kInterpolationShare = 0.8;
+constexpr int kCuttingRounds = 5;
 
 /// Power of all sources, W, largest band: a first guess of what surfaces receive. Skies and suns
 /// count over the bounds.
@@ -107,10 +138,12 @@ struct HierarchicalRadiosity::Implementation {
   ElementLight light;
   LinkNetwork network;
   std::vector<Exposure> exposures;
+  std::optional<RadiositySolution> gathered;  ///< of the last iteration of final gather
   double
       received;  ///< power that the leaves receive, W, largest band; thresholds are fractions of it
 
   double Exchange(double tolerance);
+  double PredictGatherSeconds() const;
   void Count();
 };
 
@@ -133,7 +166,7 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
     const Timer iterationTimer;
     const double done = double(iteration - 1) / iterations, share = 1.0 / iterations;
     const ProgressCallback part = [&](double fraction, const char* stage) {
-      return Report(progress, std::min(1.0, done + share * fraction), stage);
+      return Report(progress, (1 - kGatherShare) * std::min(1.0, done + share * fraction), stage);
     };
 
     // Refine, then let light bounce; the first iteration goes on until there is light to show.
@@ -164,11 +197,15 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
     const bool goOn = !observer || observer(statistics.history.back());
     if (self.options.iterations > 0 && iteration >= self.options.iterations) {
       statistics.stoppedBy = "iterations";
-    } else if (isLast && self.options.iterations <= 0) {
-      statistics.stoppedBy = self.network.linksAtFloor > 0 ? "floor" : "error";
     } else if (!goOn ||
-               !Report(progress, std::min(1.0, double(iteration) / iterations), "iterating")) {
+               !Report(progress, (1 - kGatherShare) * std::min(1.0, double(iteration) / iterations),
+                       "iterating")) {
       statistics.stoppedBy = "interrupt";
+    } else if (isLast && self.options.timeLimit > 0 &&
+               timer.Seconds() + self.PredictGatherSeconds() > self.options.timeLimit) {
+      statistics.stoppedBy = "time";
+    } else if (isLast) {
+      this->GatherUntilMet(iteration, progress, observer);
     } else if (self.options.timeLimit > 0 &&
                timer.Seconds() + iterationTimer.Seconds() > self.options.timeLimit) {
       statistics.stoppedBy = "time";
@@ -198,6 +235,24 @@ double HierarchicalRadiosity::Implementation::Exchange(double tolerance) {
     }
   }
   return change;
+}
+
+// By what a few points take that stand for all.
+double HierarchicalRadiosity::Implementation::PredictGatherSeconds() const {
+  const TriangleMesh& mesh = scene.mesh;
+  std::vector<GatherPoint> points;
+  for (int64_t i = 0; i < kTrialPoints; ++i) {
+    const int64_t face = mesh.FaceCount() * i / kTrialPoints;
+    const Vec3f normal = mesh.FrontNormal(face);
+    const Vec3f center = (mesh.Corner(face, 0) + mesh.Corner(face, 1) + mesh.Corner(face, 2)) / 3.f;
+    points.push_back({center, normal, normal});
+  }
+  const Timer timer;
+  ElementLight trial = light;
+  int64_t rays = 0;
+  FinalGather(hierarchy, rayScene, &trial).At(points, GatherFor(options.error).gather, &rays);
+  const double all = double(mesh.PointCount()) + 2.0 * hierarchy.Leaves().PatchCount();
+  return kTrialReserve * timer.Seconds() * all / kTrialPoints;
 }
 
 // Elements and links by kind.
@@ -230,10 +285,74 @@ void HierarchicalRadiosity::Implementation::Count() {
   }
 }
 
+// A final gather, on a finer and finer mesh, until the error that was asked for is verified.
+void HierarchicalRadiosity::GatherUntilMet(int iteration, const ProgressCallback& progress,
+                                           const IterationObserver& observer) {
+  Implementation& self = *implementation_;
+  SolverStatistics& statistics = self.statistics;
+  const double before = statistics.history.back().seconds;
+  const Timer timer;
+  double aim = kInterpolationShare * self.options.error;
+  GatheredSolution solution(&self.hierarchy, &self.light, self.rayScene, self.litSides,
+                            GatherFor(self.options.error), &self.network.rays);
+  for (int gather = 1;; ++gather) {
+    // Gather where nothing is known yet.
+    const Timer iterationTimer;
+    const ProgressCallback part = [&](double fraction, const char* stage) {
+      const double done = (gather - 1 + fraction) / kMostGathers;
+      return Report(progress, 1 - kGatherShare * (1 - std::min(1.0, done)), stage);
+    };
+    try {
+      solution.Refine(aim, kCuttingRounds, part);
+      self.gathered = solution.Deliver();
+    } catch (const Cancelled&) {
+      statistics.stoppedBy = "interrupt";
+      return;
+    }
+
+    // Verify; another set of points each time, or the second would be chosen by the first.
+    SolutionError error;
+    if (self.options.verificationPoints > 0) {
+      SolutionErrorOptions verification;
+      verification.points = self.options.verificationPoints;
+      verification.samples = kVerificationSamples;
+      verification.seed = HashBits(0x76657269u, uint64_t(gather));
+      error = MeasureSolutionError(self.scene, *self.gathered, verification);
+    }
+    IterationRecord record = statistics.history.back();
+    record.iteration = iteration + gather;
+    record.seconds = before + timer.Seconds();
+    record.rays = self.network.rays;
+    record.error = self.options.verificationPoints > 0 ? error.Counting() : -1;
+    statistics.history.push_back(record);
+
+    // The border of an iteration.
+    const bool goOn = !observer || observer(record);
+    const bool isMet = record.error <= self.options.error;
+    if (isMet || gather == kMostGathers) {
+      statistics.stoppedBy = isMet ? "error" : "floor";
+    } else if (self.options.iterations > 0 && record.iteration >= self.options.iterations) {
+      statistics.stoppedBy = "iterations";
+    } else if (!goOn) {
+      statistics.stoppedBy = "interrupt";
+    } else if (self.options.timeLimit > 0 &&
+               before + timer.Seconds() + kGatherGrowth * iterationTimer.Seconds() >
+                   self.options.timeLimit) {
+      statistics.stoppedBy = "time";
+    } else {
+      aim *= std::min(0.8, std::max(0.35, kAimBelow * self.options.error / record.error));
+      continue;
+    }
+    return;
+  }
+}
+
 RadiositySolution HierarchicalRadiosity::Solution() const {
   Implementation& self = *implementation_;
+  if (self.gathered) return *self.gathered;
   const LightReconstruction light(self.hierarchy, self.network, self.light, self.rayScene);
-  return MakeRefinedMesh(&self.hierarchy, light, self.litSides, &self.network.rays);
+  const RefinedMesh mesh(&self.hierarchy, self.litSides);
+  return mesh.Deliver(mesh.Light(light, &self.network.rays));
 }
 
 const SolverStatistics& HierarchicalRadiosity::Statistics() const {

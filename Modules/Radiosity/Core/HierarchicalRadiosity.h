@@ -18,6 +18,9 @@ struct HierarchicalRadiosityOptions {
   double timeLimit =
       0;  ///< seconds of solving after which the run ends at the next iteration border; 0: none
   int iterations = 0;  ///< iterations after which the run ends; 0: as many as the error asks for
+  /// Points at which a path trace verifies the delivered error, which is improved until it is the
+  /// wanted one, [0, inf); 0: what usually gives that error is taken for it.
+  int verificationPoints = 1000;
   LeafMeshOptions leafMesh;
 };
 
@@ -34,16 +37,21 @@ class HierarchicalRadiosity {
   /// Called at the end of every iteration, when Solution() is up to date; false ends the run.
   using IterationObserver = std::function<bool(const IterationRecord&)>;
 
-  /// Gather, push-pull, refine with a falling threshold until a stop (thesis figure 4.10). A
-  /// cancelled run keeps the state of its last whole iteration; `Statistics().stoppedBy` says why
-  /// it ended.
+  /// Gather, push-pull, refine with a falling threshold (thesis figure 4.10); then iterations of
+  /// final gather at the points of the mesh, each verified, until the wanted error is met or a stop
+  /// comes before. A cancelled run keeps the state of its last whole iteration;
+  /// `Statistics().stoppedBy` says why it ended.
   void Run(const ProgressCallback& progress = {}, const IterationObserver& observer = {});
 
-  /// The displayable solution as it stands: reconstruction of 4.5.5 on the refined mesh.
+  /// The displayable solution as it stands: that of the final gather once there is one, before it
+  /// the reconstruction of 4.5.5 on the refined mesh.
   RadiositySolution Solution() const;
   const SolverStatistics& Statistics() const;
 
  private:
+  void GatherUntilMet(int iteration, const ProgressCallback& progress,
+                      const IterationObserver& observer);
+
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };

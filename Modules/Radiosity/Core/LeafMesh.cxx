@@ -46,7 +46,7 @@ int32_t LeafMesh::Implementation::FacePatch(int32_t face, Side side) {
 
 std::array<int32_t, 2> LeafMesh::Implementation::Split(int32_t id) {
   Patch& patch = patches[size_t(id)];
-  if (patch.firstChild >= 0) throw Error("Patch " + std::to_string(id) + " is split already.");
+  if (patch.firstChild >= 0) return {patch.firstChild, patch.firstChild + 1};
   if (patch.meshFace < 0) AddIsland(id);
 
   // Choose the line and put its ends into the border, and with it into the neighbours' (4.4.2).
@@ -236,6 +236,12 @@ int32_t LeafMesh::FacePatch(int32_t face, Side side) {
   return implementation_->FacePatch(face, side);
 }
 std::array<int32_t, 2> LeafMesh::Split(int32_t patch) { return implementation_->Split(patch); }
+int32_t LeafMesh::FindFacePatch(int32_t face, Side side) const {
+  return implementation_->facePatch[size_t(face) * 2 + side];
+}
+int32_t LeafMesh::FirstHalf(int32_t patch) const {
+  return implementation_->patches[size_t(patch)].firstChild;
+}
 int32_t LeafMesh::PatchCount() const { return int32_t(implementation_->patches.size()); }
 int32_t LeafMesh::PatchFace(int32_t patch) const {
   return implementation_->patches[size_t(patch)].face;

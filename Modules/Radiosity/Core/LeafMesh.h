@@ -45,11 +45,17 @@ class LeafMesh {
 
   /// The patch that is the whole of `face` seen from `side`; made at the first call.
   int32_t FacePatch(int32_t face, Side side);
+  /// The same where it has been made; -1 else.
+  int32_t FindFacePatch(int32_t face, Side side) const;
   /// Splits a leaf patch across the longer side of its minimum-area rectangle, at its middle,
   /// snapped to vertices where they are near (4.4.2); returns the two halves, which become leaves
-  /// in its place. Both have area, also in slivers and in triangles without any. Throws Error where
-  /// the patch is split already, and where it is a 1e-12th of its face across.
+  /// in its place. Both have area, also in slivers and in triangles without any. Of a patch that is
+  /// split already it returns the halves. Throws Error where the patch is a 1e-12th of its face
+  /// across.
   std::array<int32_t, 2> Split(int32_t patch);
+
+  /// The first half of a split patch, the other follows it; -1 for a leaf.
+  int32_t FirstHalf(int32_t patch) const;
 
   /// Patches so far, split ones included; they are numbered from 0 and keep their numbers.
   int32_t PatchCount() const;

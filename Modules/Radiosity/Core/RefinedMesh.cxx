@@ -29,27 +29,26 @@ struct LeafIndex {
       const ClusterNode& node = hierarchy.Tree().nodes[size_t(element.item)];
       std::fill_n(ofFace[element.side].begin() + node.firstFace, node.faceCount, index);
     }
+    // Patches that were cut for the display alone belong to the leaf that they were cut from.
+    const LeafMesh& leaves = hierarchy.Leaves();
+    ofPatch.resize(size_t(leaves.PatchCount()), -1);
+    for (int32_t patch = 0; patch < leaves.PatchCount(); ++patch) {
+      const int32_t half = leaves.FirstHalf(patch);
+      if (half < 0 || ofPatch[size_t(patch)] < 0) continue;
+      ofPatch[size_t(half)] = ofPatch[size_t(half) + 1] = ofPatch[size_t(patch)];
+    }
   }
 
   int32_t operator()(const LeafTriangle& triangle) const {
-    const size_t patch = size_t(std::max(0, triangle.patch));
-    if (triangle.patch >= 0 && patch < ofPatch.size() && ofPatch[patch] >= 0) return ofPatch[patch];
+    if (triangle.patch >= 0 && ofPatch[size_t(triangle.patch)] >= 0) {
+      return ofPatch[size_t(triangle.patch)];
+    }
     return ofFace[triangle.side][size_t(triangle.face)];
   }
 };
 
-/// A corner of a leaf triangle, by the output point that it becomes: one per vertex, surface and
-/// side.
-struct Corner {
-  uint64_t key;
-  int32_t triangle;
-  int32_t corner;
-  bool operator<(const Corner& c) const {
-    return key != c.key             ? key < c.key
-           : triangle != c.triangle ? triangle < c.triangle
-                                    : corner < c.corner;
-  }
-};
+using Corner = RefinedMesh::Corner;
+using Range = RefinedMesh::Range;
 
 std::vector<Corner> SortedCorners(const std::vector<LeafTriangle>& triangles,
                                   const std::vector<int32_t>& surfaceId) {
@@ -65,10 +64,6 @@ std::vector<Corner> SortedCorners(const std::vector<LeafTriangle>& triangles,
   std::sort(corners.begin(), corners.end());
   return corners;
 }
-
-struct Range {
-  int64_t begin, end;
-};
 
 /// Corners of the same point, points in the order in which triangles first name them: vertex
 /// numbers depend on when the leaves were triangulated before, this order does not.
@@ -120,52 +115,18 @@ int32_t VertexOf(const std::vector<Corner>& corners, const Range& group) {
   return int32_t(corners[size_t(group.begin)].key & 0xffffffffu);
 }
 
-/// What meets at an output point: leaves by angle, and the means that the point carries.
-struct Meeting {
-  std::vector<LightReconstruction::Share> shares;
-  Vec3f faceNormal;  ///< not normalized
-  Spectrum reflectance, emittance;
-};
+/// Angle of a triangle at one of its corners, never quite zero.
+float AngleAt(const VertexReader& vertices, const LeafTriangle& triangle, int32_t corner) {
+  const Vec3f p = vertices.Position(triangle.vertices[size_t(corner)]);
+  const Vec3f a = vertices.Position(triangle.vertices[size_t(corner + 1) % 3]);
+  const Vec3f b = vertices.Position(triangle.vertices[size_t(corner + 2) % 3]);
+  return std::max(1e-6f, CornerAngle(p, a, b));
+}
 
-Meeting MeetAt(int32_t vertex, const Range& group, const std::vector<Corner>& corners,
-               const std::vector<LeafTriangle>& triangles, const std::vector<int32_t>& leaves,
-               const TriangleMesh& input, const VertexReader& vertices) {
-  Meeting meeting;
-  float total = 0, weight = 0;
-  const Vec3f position = vertices.Position(vertex);
-  for (int64_t i = group.begin; i < group.end; ++i) {
-    // The corner's angle, and what its face adds to the means.
-    const Corner& corner = corners[size_t(i)];
-    const LeafTriangle& triangle = triangles[size_t(corner.triangle)];
-    const Vec3f a = vertices.Position(triangle.vertices[size_t(corner.corner + 1) % 3]);
-    const Vec3f b = vertices.Position(triangle.vertices[size_t(corner.corner + 2) % 3]);
-    const float angle = std::max(1e-6f, CornerAngle(position, a, b));
-    const Vec3f n = input.FrontNormal(triangle.face) * (triangle.side == kBack ? -1.f : 1.f);
-    meeting.faceNormal += n * angle;
-    meeting.reflectance += input.reflectance[size_t(triangle.face)] * angle;
-    if (input.Emits(triangle.face, Side(triangle.side))) {
-      meeting.emittance += input.emittance[size_t(triangle.face)] * angle;
-    }
-    total += angle;
-
-    // Its leaf's share.
-    const int32_t leaf = leaves[size_t(corner.triangle)];
-    if (leaf < 0) continue;
-    const Vec3f inside = (position + a + b) / 3.f;
-    auto same = std::find_if(meeting.shares.begin(), meeting.shares.end(),
-                             [&](const LightReconstruction::Share& s) { return s.leaf == leaf; });
-    if (same == meeting.shares.end()) same = meeting.shares.insert(same, {leaf, 0.f, Vec3f()});
-    same->weight += angle;
-    same->inside += inside * angle;
-    weight += angle;
-  }
-  for (LightReconstruction::Share& share : meeting.shares) {
-    share.inside /= share.weight;
-    share.weight /= weight;
-  }
-  meeting.reflectance *= 1 / total;
-  meeting.emittance *= 1 / total;
-  return meeting;
+Vec3f Centroid(const VertexReader& vertices, const LeafTriangle& triangle) {
+  return (vertices.Position(triangle.vertices[0]) + vertices.Position(triangle.vertices[1]) +
+          vertices.Position(triangle.vertices[2])) /
+         3.f;
 }
 
 /// Fills the per-face arrays from the faces that the triangles lie in; back sides are wound the
@@ -205,65 +166,144 @@ void FillFaces(const TriangleMesh& input, const std::vector<LeafTriangle>& trian
 
 }  // namespace
 
-RadiositySolution MakeRefinedMesh(ElementHierarchy* hierarchy, const LightReconstruction& light,
-                                  const std::vector<uint8_t>& litSides, int64_t* rays) {
-  // Triangles of all modelled sides.
+RefinedMesh::RefinedMesh(ElementHierarchy* hierarchy, const std::vector<uint8_t>& litSides)
+    : hierarchy_(hierarchy) {
   const TriangleMesh& input = hierarchy->GetScene().mesh;
-  std::vector<uint8_t> faceSides(input.triangles.size());
-  for (size_t face = 0; face < faceSides.size(); ++face) {
+  faceSides_.resize(input.triangles.size());
+  for (size_t face = 0; face < faceSides_.size(); ++face) {
     const uint8_t sides = litSides[size_t(input.surfaceId[face])];
-    faceSides[face] = sides ? sides : uint8_t(1);
+    faceSides_[face] = sides ? sides : uint8_t(1);
   }
-  const std::vector<LeafTriangle> triangles = hierarchy->Leaves().Triangulate(faceSides);
-  const LeafIndex leafIndex(*hierarchy);
-  std::vector<int32_t> leaves(triangles.size());
-  for (size_t t = 0; t < triangles.size(); ++t) leaves[t] = leafIndex(triangles[t]);
+  this->Triangulate();
+}
+
+void RefinedMesh::Triangulate() {
+  // Triangles of all modelled sides, and the leaves that they lie in.
+  triangles_ = hierarchy_->Leaves().Triangulate(faceSides_);
+  const LeafIndex leafIndex(*hierarchy_);
+  leaves_.resize(triangles_.size());
+  for (size_t t = 0; t < triangles_.size(); ++t) leaves_[t] = leafIndex(triangles_[t]);
 
   // Points: corners that agree in vertex, surface and side.
-  const std::vector<Corner> corners = SortedCorners(triangles, input.surfaceId);
-  const std::vector<Range> groups = PointGroups(corners);
-  const int64_t points = int64_t(groups.size());
-
-  RadiositySolution solution;
-  solution.mesh.positions.resize(size_t(points));
-  solution.mesh.normals.resize(size_t(points));
-  if (!input.uvs.empty()) solution.mesh.uvs.resize(size_t(points));
-  solution.mesh.triangles.resize(triangles.size());
-  solution.irradiance.resize(size_t(points));
-  solution.radiosity.resize(size_t(points));
-  const VertexReader vertices{input, hierarchy->Leaves().Vertices()};
-  std::vector<int64_t> raysOfPoint(size_t(points), 0);
-
-  // Light at each point: mean over the leaves that meet there, by angle.
-  ParallelForEach(points, 64, [&](int64_t point) {
-    const Range& group = groups[size_t(point)];
+  const TriangleMesh& input = hierarchy_->GetScene().mesh;
+  corners_ = SortedCorners(triangles_, input.surfaceId);
+  groups_ = PointGroups(corners_);
+  points_.resize(groups_.size());
+  pointsOfTriangle_.resize(triangles_.size());
+  ParallelForEach(int64_t(groups_.size()), 256, [&](int64_t p) {
+    const Range& group = groups_[size_t(p)];
     for (int64_t i = group.begin; i < group.end; ++i) {
-      const Corner& corner = corners[size_t(i)];
-      solution.mesh.triangles[size_t(corner.triangle)][size_t(corner.corner)] = int32_t(point);
+      const Corner& corner = corners_[size_t(i)];
+      pointsOfTriangle_[size_t(corner.triangle)][size_t(corner.corner)] = int32_t(p);
     }
-    const int32_t vertex = VertexOf(corners, group);
-    const Meeting meeting = MeetAt(vertex, group, corners, triangles, leaves, input, vertices);
-    Vec3f normal = Normalize(vertices.Interpolate(input.normals, vertex));
-    if (Dot(normal, meeting.faceNormal) < 0) normal = -normal;
-    const size_t p = size_t(point);
-    solution.mesh.positions[p] = vertices.Position(vertex);
-    solution.mesh.normals[p] = normal;
-    if (!input.uvs.empty()) solution.mesh.uvs[p] = vertices.Interpolate(input.uvs, vertex);
-    solution.irradiance[p] =
-        light.At(solution.mesh.positions[p], meeting.shares, &raysOfPoint[p]).At(normal);
-    solution.radiosity[p] = meeting.reflectance * solution.irradiance[p] + meeting.emittance;
+    points_[size_t(p)] = this->MakePoint(group);
+  });
+}
+
+// Means over the triangles that meet at a point, by angle.
+RefinedMesh::Point RefinedMesh::MakePoint(const Range& group) const {
+  const TriangleMesh& input = hierarchy_->GetScene().mesh;
+  const VertexReader vertices{input, hierarchy_->Leaves().Vertices()};
+  const int32_t vertex = VertexOf(corners_, group);
+  Point point;
+  point.key = corners_[size_t(group.begin)].key;
+  point.position = vertices.Position(vertex);
+  float total = 0, largest = -1;
+  for (int64_t i = group.begin; i < group.end; ++i) {
+    const Corner& corner = corners_[size_t(i)];
+    const LeafTriangle& triangle = triangles_[size_t(corner.triangle)];
+    const float angle = AngleAt(vertices, triangle, corner.corner);
+    point.faceNormal +=
+        input.FrontNormal(triangle.face) * (triangle.side == kBack ? -angle : angle);
+    point.reflectance += input.reflectance[size_t(triangle.face)] * angle;
+    if (input.Emits(triangle.face, Side(triangle.side))) {
+      point.emittance += input.emittance[size_t(triangle.face)] * angle;
+    }
+    total += angle;
+    const Vec3f p = vertices.Position(triangle.vertices[0]);
+    const float area = Length(Cross(vertices.Position(triangle.vertices[1]) - p,
+                                    vertices.Position(triangle.vertices[2]) - p));
+    if (area > largest) {
+      largest = area;
+      point.inside = Centroid(vertices, triangle);
+      point.insideNormal = input.FrontNormal(triangle.face) * (triangle.side == kBack ? -1.f : 1.f);
+    }
+  }
+  point.reflectance *= 1 / total;
+  point.emittance *= 1 / total;
+  point.faceNormal = Normalize(point.faceNormal);
+  point.normal = Normalize(vertices.Interpolate(input.normals, vertex));
+  if (Dot(point.normal, point.faceNormal) < 0) point.normal = -point.normal;
+  if (!input.uvs.empty()) point.uv = vertices.Interpolate(input.uvs, vertex);
+  return point;
+}
+
+std::vector<LightReconstruction::Share> RefinedMesh::Shares(int64_t point) const {
+  const VertexReader vertices{hierarchy_->GetScene().mesh, hierarchy_->Leaves().Vertices()};
+  const Range& group = groups_[size_t(point)];
+  std::vector<LightReconstruction::Share> shares;
+  float weight = 0;
+  for (int64_t i = group.begin; i < group.end; ++i) {
+    const Corner& corner = corners_[size_t(i)];
+    const int32_t leaf = leaves_[size_t(corner.triangle)];
+    if (leaf < 0) continue;
+    const LeafTriangle& triangle = triangles_[size_t(corner.triangle)];
+    const float angle = AngleAt(vertices, triangle, corner.corner);
+    auto same = std::find_if(shares.begin(), shares.end(),
+                             [&](const LightReconstruction::Share& s) { return s.leaf == leaf; });
+    if (same == shares.end()) same = shares.insert(same, {leaf, 0.f, Vec3f()});
+    same->weight += angle;
+    same->inside += Centroid(vertices, triangle) * angle;
+    weight += angle;
+  }
+  for (LightReconstruction::Share& share : shares) {
+    share.inside /= share.weight;
+    share.weight /= weight;
+  }
+  return shares;
+}
+
+std::vector<Spectrum> RefinedMesh::Light(const LightReconstruction& light, int64_t* rays) const {
+  std::vector<Spectrum> irradiance(points_.size());
+  std::vector<int64_t> raysOfPoint(points_.size(), 0);
+  ParallelForEach(int64_t(points_.size()), 64, [&](int64_t p) {
+    const Point& point = points_[size_t(p)];
+    irradiance[size_t(p)] =
+        light.At(point.position, this->Shares(p), &raysOfPoint[size_t(p)]).At(point.normal);
   });
   for (const int64_t cast : raysOfPoint) *rays += cast;
-  FillFaces(input, triangles, leaves, &solution);
+  return irradiance;
+}
+
+RadiositySolution RefinedMesh::Deliver(const std::vector<Spectrum>& irradiance) const {
+  // Points.
+  const TriangleMesh& input = hierarchy_->GetScene().mesh;
+  RadiositySolution solution;
+  TriangleMesh& mesh = solution.mesh;
+  mesh.positions.resize(points_.size());
+  mesh.normals.resize(points_.size());
+  if (!input.uvs.empty()) mesh.uvs.resize(points_.size());
+  solution.irradiance = irradiance;
+  solution.radiosity.resize(points_.size());
+  for (size_t p = 0; p < points_.size(); ++p) {
+    const Point& point = points_[p];
+    mesh.positions[p] = point.position;
+    mesh.normals[p] = point.normal;
+    if (!input.uvs.empty()) mesh.uvs[p] = point.uv;
+    solution.radiosity[p] = point.reflectance * irradiance[p] + point.emittance;
+  }
+
+  // Faces.
+  mesh.triangles = pointsOfTriangle_;
+  FillFaces(input, triangles_, leaves_, &solution);
 
   // The input's own points take the brighter of their sides.
   solution.inputIrradiance.assign(input.positions.size(), {});
-  for (int64_t point = 0; point < points; ++point) {
-    const int32_t vertex = VertexOf(corners, groups[size_t(point)]);
+  for (size_t p = 0; p < points_.size(); ++p) {
+    const int32_t vertex = VertexOf(corners_, groups_[p]);
     if (vertex >= input.PointCount()) continue;
     Spectrum& brightest = solution.inputIrradiance[size_t(vertex)];
-    const Spectrum& here = solution.irradiance[size_t(point)];
-    if (Luminance(here) > Luminance(brightest)) brightest = here;
+    if (Luminance(irradiance[p]) > Luminance(brightest)) brightest = irradiance[p];
   }
   return solution;
 }

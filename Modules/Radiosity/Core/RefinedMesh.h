@@ -1,15 +1,76 @@
-// The displayable mesh: leaf triangles with light at their points, in the terms of the contract.
+// The displayable mesh: leaf triangles and the points at which light is asked for, in the terms of
+// the contract.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "Radiosity/Core/ElementHierarchy.h"
 #include "Radiosity/Core/LightReconstruction.h"
 #include "Scene/Core/RadiositySolution.h"
 
 namespace lambert {
 
-/// Triangulates the leaves and evaluates their light. `litSides` as given to the hierarchy, per
-/// surface; a face that has no lit side is delivered black, by its front. Adds the rays cast to
-/// `rays`.
-RadiositySolution MakeRefinedMesh(ElementHierarchy* hierarchy, const LightReconstruction& light,
-                                  const std::vector<uint8_t>& litSides, int64_t* rays);
+class RefinedMesh {
+ public:
+  /// One per vertex, surface and side.
+  struct Point {
+    uint64_t key = 0;  ///< of its vertex, surface and side: the same after another triangulation
+    Vec3f position;
+    Vec3f normal;        ///< unit; irradiance is for it
+    Vec3f faceNormal;    ///< unit, mean of the faces that meet here
+    Vec3f inside;        ///< middle of the largest triangle that meets here: light is asked for a
+                         ///< little toward it
+    Vec3f insideNormal;  ///< unit, of that triangle
+    Vec2f uv;
+    Spectrum reflectance, emittance;  ///< means over the faces that meet here
+  };
+  /// A corner of a leaf triangle, by the point that it becomes.
+  struct Corner {
+    uint64_t key;
+    int32_t triangle;
+    int32_t corner;
+    bool operator<(const Corner& c) const {
+      return key != c.key             ? key < c.key
+             : triangle != c.triangle ? triangle < c.triangle
+                                      : corner < c.corner;
+    }
+  };
+  struct Range {
+    int64_t begin, end;
+  };
+
+  /// Triangulates the leaves. `litSides` as given to the hierarchy, per surface; a face that has no
+  /// lit side is delivered black, by its front.
+  RefinedMesh(ElementHierarchy* hierarchy, const std::vector<uint8_t>& litSides);
+
+  /// Again, after patches were split.
+  void Triangulate();
+
+  const std::vector<Point>& Points() const { return points_; }
+  const std::vector<LeafTriangle>& Triangles() const { return triangles_; }
+  /// Per triangle, in the winding of its face's front.
+  const std::vector<std::array<int32_t, 3>>& PointsOfTriangles() const { return pointsOfTriangle_; }
+
+  /// Irradiance at the points from the links, W/m2: mean over the leaves that meet there, by angle.
+  /// Adds the rays cast to `rays`.
+  std::vector<Spectrum> Light(const LightReconstruction& light, int64_t* rays) const;
+  /// The solution that has `irradiance` (W/m2) at its points.
+  RadiositySolution Deliver(const std::vector<Spectrum>& irradiance) const;
+
+ private:
+  Point MakePoint(const Range& group) const;
+  std::vector<LightReconstruction::Share> Shares(int64_t point) const;
+
+  ElementHierarchy* hierarchy_;
+  std::vector<uint8_t> faceSides_;
+  std::vector<LeafTriangle> triangles_;
+  std::vector<int32_t> leaves_;  ///< per triangle: its leaf element; -1 for none
+  std::vector<Corner> corners_;  ///< sorted
+  std::vector<Range> groups_;    ///< per point: of corners_
+  std::vector<Point> points_;
+  std::vector<std::array<int32_t, 3>> pointsOfTriangle_;
+};
 
 }  // namespace lambert

@@ -31,6 +31,10 @@ struct SolutionError {
   int64_t missedPoints =
       0;             ///< of the receiving ones: lit in the reference, not modelled by the solution
   double noise = 0;  ///< relative RMS noise of the reference, what was subtracted from `rms`
+
+  /// The error that counts: `rms`, or `bounded` where a few points decide the first, so that its
+  /// interval is wider than 30 % of it.
+  double Counting() const { return rmsHigh - rmsLow > 0.3 * rms ? bounded : rms; }
 };
 
 /// Compares the irradiance that `solution` delivers (interpolated from its vertices) with a path

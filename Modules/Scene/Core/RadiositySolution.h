@@ -18,6 +18,7 @@ struct IterationRecord {
   int64_t links = 0;
   int64_t rays = 0;
   double change = 0;  ///< relative change of the radiosity in the last sweep
+  double error = -1;  ///< verified error of what was delivered; negative where it was not measured
 };
 
 /// The account of a run; the report is written from it.

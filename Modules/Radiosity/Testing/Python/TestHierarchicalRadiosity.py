@@ -79,7 +79,7 @@ irradiance = array(refined, "Irradiance")
 assert np.isfinite(irradiance).all() and irradiance.min() >= 0 and irradiance.max() > 0
 assert history.GetNumberOfRows() > 0
 assert [history.GetColumnName(i) for i in range(history.GetNumberOfColumns())] == [
-    "iteration", "seconds", "threshold", "elements", "links", "rays", "change"]
+    "iteration", "seconds", "threshold", "elements", "links", "rays", "change", "error"]
 assert lit.GetNumberOfPoints() == scene.GetNumberOfPoints() and lit.GetNumberOfCells() == scene.GetNumberOfCells()
 assert np.array_equal(vtk_to_numpy(lit.GetPolys().GetConnectivityArray()), vtk_to_numpy(scene.GetPolys().GetConnectivityArray()))
 assert array(lit, "Irradiance").shape == (scene.GetNumberOfPoints(), 3) and array(lit, "Irradiance").max() > 0

@@ -272,7 +272,8 @@ TEST(LeafMesh, RightTriangleIsCutThroughItsApex) {
     EXPECT_DOUBLE_EQ(PolygonArea(leaves.Corners(half)), 0.5);
     EXPECT_EQ(leaves.PatchFace(half), 0);
   }
-  EXPECT_THROW(leaves.Split(0), Error);
+  EXPECT_EQ(leaves.Split(0), halves);  // Of a split patch they are the same again.
+  EXPECT_EQ(leaves.FirstHalf(0), halves[0]);
   ASSERT_EQ(leaves.Vertices().size(), 1u);
   EXPECT_EQ(leaves.Vertices()[0].position, Vec3f(1, 0, 0));
 }

@@ -161,7 +161,7 @@ TEST(SolverMesh, SliversEndInPatchesOfGoodShape) {
   testing::AddQuad(&scene.mesh, {0, 0, 5e-4f}, {0, 1e-3f, 0}, {1, 0, 0}, Spectrum(0.f),
                    Spectrum(100.f), 1, 1);
   testing::CompleteTables(&scene);
-  const SolvedScene solved = SolveScene(scene, 0.05);
+  const SolvedScene solved = SolveScene(scene, 0.02);
   const RadiositySolution& solution = solved.solution;
 
   // Leaves of the sliver's front, by their points.

@@ -1,0 +1,336 @@
+#include "Radiosity/Core/DirectLight.h"
+
+#include <algorithm>
+#include <array>
+
+#include "Common/Core/PolygonIrradiance.h"
+#include "Common/Core/Random.h"
+#include "Common/Core/SphericalTriangle.h"
+
+namespace lambert {
+
+namespace {
+
+/// A group of emitters farther away than this many of its radii is taken as one.
+constexpr float kSmallBeyond = 12;
+/// A face nearer than this many of its radii is sampled by solid angle, else by area.
+constexpr float kLargeWithin = 4;
+/// Where a place on a face lies below the horizon, that many others are tried.
+constexpr int kMorePlaces = 8;
+/// Light of which more than this part comes from groups scatters without being blocked.
+constexpr float kMostGrouped = 0.2f;
+/// Fewer rays than this pick a face each, down from the root of all emitters.
+constexpr int kRaysToOpen = 4;
+
+/// An angle in [0, pi].
+struct Cone {
+  float cosine, sine;
+};
+
+Cone ConeAbout(float cosine) {
+  cosine = std::min(1.f, std::max(-1.f, cosine));
+  return {cosine, std::sqrt(1 - cosine * cosine)};
+}
+
+/// The difference of two angles; 0 where the second is larger.
+Cone Narrowed(const Cone& a, const Cone& b) {
+  if (a.cosine >= b.cosine) return {1, 0};
+  return {a.cosine * b.cosine + a.sine * b.sine, a.sine * b.cosine - a.cosine * b.sine};
+}
+
+bool IsAbove(const GatherPoint& at, const Vec3f& direction) {
+  return Dot(at.normal, direction) > 0 && Dot(at.geometricNormal, direction) > 0;
+}
+
+}  // namespace
+
+DirectLight::DirectLight(const Scene& scene, const RayScene& rayScene)
+    : rayScene_(rayScene), diagonal_(rayScene.Diagonal()) {
+  for (const Light& light : scene.lights) {
+    if (light.type != LightType::Sky && !light.intensity.IsBlack()) lights_.push_back(light);
+  }
+  const TriangleMesh& mesh = scene.mesh;
+  for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
+    for (const Side side : {kFront, kBack}) {
+      if (mesh.Emits(face, side)) this->Add(face, side, mesh);
+    }
+  }
+  if (!emitters_.empty()) Build(0, int32_t(emitters_.size()));
+}
+
+void DirectLight::Add(int64_t face, Side side, const TriangleMesh& mesh) {
+  Emitter emitter;
+  Vec3f* c = emitter.corners;
+  for (int i = 0; i < 3; ++i) c[i] = mesh.Corner(face, side == kFront ? i : 2 - i);
+  const Vec3f doubleArea = Cross(c[1] - c[0], c[2] - c[0]);
+  emitter.emittance = mesh.emittance[size_t(face)];
+  emitter.normal = Normalize(doubleArea);
+  emitter.center = (c[0] + c[1] + c[2]) / 3.f;
+  emitter.area = 0.5f * Length(doubleArea);
+  emitter.power = emitter.area * emitter.emittance.Mean();
+  if (emitter.power > 0) emitters_.push_back(emitter);
+}
+
+int32_t DirectLight::Build(int32_t begin, int32_t end) {
+  // Bounds.
+  const int32_t index = int32_t(nodes_.size());
+  Node node;
+  node.begin = begin;
+  node.end = end;
+  Box3f box;
+  for (int32_t i = begin; i < end; ++i) {
+    for (const Vec3f& corner : emitters_[size_t(i)].corners) box.Include(corner);
+    node.power += emitters_[size_t(i)].power;
+  }
+  Vec3f normals;
+  for (int32_t i = begin; i < end; ++i) normals += emitters_[size_t(i)].normal;
+  node.axis = Normalize(normals);
+  node.cosCone = node.axis == Vec3f() ? -1.f : 1.f;
+  for (int32_t i = begin; i < end; ++i) {
+    node.cosCone = std::min(node.cosCone, Dot(node.axis, emitters_[size_t(i)].normal));
+  }
+  node.cosCone = std::max(-1.f, node.cosCone);
+  node.sinCone = std::sqrt(1 - node.cosCone * node.cosCone);
+  node.center = box.Center();
+  node.radius = box.Diagonal() / 2;
+  nodes_.push_back(node);
+  if (end - begin == 1) return index;
+
+  // Halves across the longest extent.
+  const Vec3f extent = box.Extent();
+  const int axis =
+      extent.x >= extent.y ? (extent.x >= extent.z ? 0 : 2) : (extent.y >= extent.z ? 1 : 2);
+  const int32_t middle = (begin + end) / 2;
+  std::nth_element(emitters_.begin() + begin, emitters_.begin() + middle, emitters_.begin() + end,
+                   [axis](const Emitter& a, const Emitter& b) {
+                     if (a.center[axis] != b.center[axis]) return a.center[axis] < b.center[axis];
+                     return std::lexicographical_compare(&a.center.x, &a.center.x + 3, &b.center.x,
+                                                         &b.center.x + 3);
+                   });
+  Build(begin, middle);
+  const int32_t second = Build(middle, end);
+  nodes_[size_t(index)].second = second;
+  return index;
+}
+
+// What a face gives is known in closed form; of a group, what it would give at most as far away as
+// its middle.
+DirectLight::Source DirectLight::Weigh(int32_t index, const GatherPoint& at) const {
+  const Node& node = nodes_[size_t(index)];
+  Source source{index, {}, 0};
+  if (node.second < 0) {
+    const Emitter& emitter = emitters_[size_t(node.begin)];
+    const Vec3d vector =
+        PolygonIrradianceAbove(emitter.corners, 3, at.position, at.geometricNormal);
+    source.exact = emitter.emittance * std::max(0.f, float(Dot(Vec3d(at.normal), vector)));
+    source.weight = source.exact.Mean();
+    return source;
+  }
+  // The cosine here, and there.
+  const Vec3f offset = node.center - at.position;
+  const float distance = Length(offset), nearest = std::max(distance, node.radius);
+  const float height = std::min(Dot(offset, at.normal), Dot(offset, at.geometricNormal));
+  if (height + node.radius <= 0) return source;
+  const float cosine = std::min(1.f, (height + node.radius) / nearest);
+  float facing = 1;
+  if (distance > node.radius) {
+    const Cone toPoint = ConeAbout(-Dot(node.axis, offset) / distance);
+    const float sine = node.radius / distance;
+    const Cone least = Narrowed(Narrowed(toPoint, {node.cosCone, node.sinCone}),
+                                {std::sqrt(1 - sine * sine), sine});
+    if (least.cosine <= 0) return source;
+    facing = least.cosine;
+  }
+  source.weight = node.power * cosine * facing / (float(kPi) * nearest * nearest);
+  return source;
+}
+
+// Down a group to one of its faces, by what each half may give; `u` in [0,1) is used up and
+// stretched again.
+DirectLight::Source DirectLight::PickFace(const Source& group, const GatherPoint& at, float* u,
+                                          float* chance) const {
+  Source source = group;
+  *chance = 1;
+  while (nodes_[size_t(source.node)].second >= 0) {
+    const Source first = this->Weigh(source.node + 1, at);
+    const Source second = this->Weigh(nodes_[size_t(source.node)].second, at);
+    const float total = first.weight + second.weight;
+    if (!(total > 0)) return {source.node, {}, 0};
+    const float part = first.weight / total;
+    if (*u < part) {
+      *u = std::min(0.999999f, *u / part);
+      *chance *= part;
+      source = first;
+    } else {
+      *u = std::min(0.999999f, (*u - part) / (1 - part));
+      *chance *= 1 - part;
+      source = second;
+    }
+  }
+  return source;
+}
+
+// The parts of the emitters that are dealt with one by one: the brightest that do not look small
+// are opened until there are enough.
+int DirectLight::Sources(const GatherPoint& at, Source* sources) const {
+  int count = 0;
+  sources[count++] = this->Weigh(0, at);
+  while (count < kMostSources) {
+    int opened = -1;
+    float most = 0;
+    for (int i = 0; i < count; ++i) {
+      const Node& node = nodes_[size_t(sources[i].node)];
+      if (node.second < 0 || !(sources[i].weight > most)) continue;
+      const float distance = Length(node.center - at.position);
+      if (distance > kSmallBeyond * node.radius) continue;
+      opened = i;
+      most = sources[i].weight;
+    }
+    if (opened < 0) break;
+    const int32_t node = sources[opened].node;
+    sources[opened] = this->Weigh(node + 1, at);
+    sources[count++] = this->Weigh(nodes_[size_t(node)].second, at);
+  }
+  return count;
+}
+
+// A place on a face: uniform in solid angle where it looks large, else in area. `value` is what
+// such places give, but for a factor that is the same for all of the face.
+bool DirectLight::PlaceOn(const Emitter& emitter, const GatherPoint& at, float u, float v,
+                          Vec3f* target, float* value) const {
+  float density = 0;  // Over solid angle.
+  bool isLarge =
+      LengthSquared(emitter.center - at.position) < kLargeWithin * kLargeWithin * emitter.area;
+  if (isLarge) {
+    Vec3d toward[3];
+    for (int c = 0; c < 3; ++c) {
+      toward[c] = Normalize(Vec3d(emitter.corners[c]) - Vec3d(at.position));
+    }
+    const double angle = SolidAngle(toward[0], toward[1], toward[2]);
+    isLarge = angle > 1e-4;
+    if (isLarge) {
+      const Vec3d d =
+          SampleSphericalTriangle(toward[0], toward[1], toward[2], double(u), double(v));
+      const Vec3d normal(emitter.normal);
+      const double slope = Dot(d, normal);
+      const double height = Dot(Vec3d(emitter.corners[0]) - Vec3d(at.position), normal);
+      if (!(slope * height > 0)) return false;
+      *target = Vec3f(Vec3d(at.position) + d * (height / slope));
+      density = float(1 / angle);
+    }
+  }
+  if (!isLarge) {
+    const Vec2f b = UniformTriangle(u, v);
+    *target = emitter.corners[0] + (emitter.corners[1] - emitter.corners[0]) * b.x +
+              (emitter.corners[2] - emitter.corners[0]) * b.y;
+    const Vec3f offset = *target - at.position;
+    const float squared = LengthSquared(offset);
+    const float cosine = -Dot(offset, emitter.normal) / std::sqrt(std::max(squared, 1e-30f));
+    if (!(cosine > 0)) return false;
+    density = squared / (cosine * emitter.area);
+  }
+  const Vec3f direction = Normalize(*target - at.position);
+  *value = Dot(at.normal, direction) / density;
+  return IsAbove(at, direction);
+}
+
+// Rays dealt out by weight, systematically: each brings an equal part of it.
+Spectrum DirectLight::Sample(const GatherPoint& at, const Source* sources, int count, float total,
+                             int rays, uint64_t seed, int* clear) const {
+  Random random(seed);
+  const float start = random.Uniform(), shift = random.Uniform();
+  const float part = total / float(rays);
+  Spectrum sum;
+  float upTo = 0;
+  int ray = 0;
+  for (int s = 0; s < count; ++s) {
+    // This source's share of the rays.
+    const Source& source = sources[s];
+    upTo += source.weight;
+    const int first = ray;
+    while (ray < rays && (float(ray) + start) * part < upTo) ++ray;
+    if (s + 1 == count && source.weight > 0) ray = rays;
+    const int own = ray - first;
+    if (own == 0) continue;
+
+    // What of them is clear; on a face each place counts by what it gives.
+    const bool isFace = nodes_[size_t(source.node)].second < 0;
+    float all = 0, open = 0;
+    for (int k = 0; k < own; ++k) {
+      float u = (float(k) + random.Uniform()) / float(own), chance = 1, value = 0;
+      const Source face = isFace ? source : this->PickFace(source, at, &u, &chance);
+      if (!(face.weight > 0)) continue;
+      const Emitter& emitter = emitters_[size_t(nodes_[size_t(face.node)].begin)];
+      const float v = RadicalInverse(uint32_t(first + k), shift);
+      Vec3f target;
+      bool isPlaced = this->PlaceOn(emitter, at, u, v, &target, &value);
+      for (int more = 0; more < kMorePlaces && !isPlaced; ++more) {
+        isPlaced = this->PlaceOn(emitter, at, random.Uniform(), random.Uniform(), &target, &value);
+      }
+      if (!isPlaced) continue;
+      const bool isClear = !rayScene_.Occluded(at.position, target);
+      *clear += isClear;
+      all += value;
+      if (isClear) open += value;
+      if (isClear && !isFace) sum += face.exact * (part / (source.weight * chance));
+    }
+    if (isFace && all > 0) sum += source.exact * (part * float(own) / source.weight * open / all);
+  }
+  return sum;
+}
+
+Spectrum DirectLight::FromEmitters(const GatherPoint& at, const DirectLightOptions& options,
+                                   uint64_t seed, int64_t* rays) const {
+  if (emitters_.empty()) return {};
+  std::array<Source, kMostSources> sources;
+  sources[0] = this->Weigh(0, at);
+  const int count = options.rays < kRaysToOpen ? 1 : this->Sources(at, sources.data());
+  float total = 0;
+  for (int s = 0; s < count; ++s) total += sources[size_t(s)].weight;
+  if (!(total > 0)) return {};
+
+  // A few rays; more where they disagree, and where groups are not known exactly.
+  int clear = 0;
+  const int few = options.rays, more = options.penumbraRays;
+  Spectrum light = this->Sample(at, sources.data(), count, total, few, HashBits(seed, 1), &clear);
+  *rays += few;
+  float grouped = 0;
+  for (int s = 0; s < count; ++s) {
+    const Source& source = sources[size_t(s)];
+    if (nodes_[size_t(source.node)].second >= 0) grouped += source.weight;
+  }
+  if (more > 0 && clear > 0 && (clear < few || grouped > kMostGrouped * total)) {
+    const Spectrum rest =
+        this->Sample(at, sources.data(), count, total, more, HashBits(seed, 2), &clear);
+    *rays += more;
+    light = (light * float(few) + rest * float(more)) / float(few + more);
+  }
+  return light;
+}
+
+Spectrum DirectLight::FromLight(const GatherPoint& at, const Light& light, int64_t* rays) const {
+  Vec3f target = light.position, direction = -light.direction;
+  float attenuation = 1;
+  if (light.type == LightType::Directional) {
+    target = at.position + direction * (2 * diagonal_);
+  } else {
+    const Vec3f offset = light.position - at.position;
+    const float squared = LengthSquared(offset);
+    if (!(squared > 0)) return {};
+    direction = offset / std::sqrt(squared);
+    attenuation = light.ConeFactor(-direction) / squared;
+  }
+  if (!IsAbove(at, direction) || !(attenuation > 0)) return {};
+  ++*rays;
+  if (rayScene_.Occluded(at.position, target)) return {};
+  return light.intensity * (Dot(at.normal, direction) * attenuation);
+}
+
+Spectrum DirectLight::At(const GatherPoint& at, const DirectLightOptions& options, uint64_t seed,
+                         int64_t* rays) const {
+  Spectrum sum = this->FromEmitters(at, options, seed, rays);
+  for (const Light& light : lights_) sum += this->FromLight(at, light, rays);
+  return sum;
+}
+
+}  // namespace lambert

@@ -1,0 +1,87 @@
+// Irradiance straight from the light sources at a point: closed form over the emitting faces, rays
+// in proportion to what they give.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "Scene/Core/Scene.h"
+#include "Visibility/Core/RayScene.h"
+
+namespace lambert {
+
+/// A place where light is gathered: the normal that irradiance is for, and the geometric normal
+/// whose hemisphere can see light.
+struct GatherPoint {
+  Vec3f position;
+  Vec3f normal;
+  Vec3f geometricNormal;
+};
+
+struct DirectLightOptions {
+  int rays = 8;  ///< to all emitting faces together, [1, inf); where nothing is in the way the
+                 ///< answer is exact with any number
+  int penumbraRays = 24;  ///< more of them where some of the first are blocked and some are not,
+                          ///< [0, inf)
+};
+
+/// All emitting faces and the lights without geometry but the sky, over a tree of the faces: from a
+/// point, groups of faces that look small are taken as one.
+class DirectLight {
+ public:
+  /// Both by reference.
+  DirectLight(const Scene& scene, const RayScene& rayScene);
+
+  /// Irradiance at a point, W/m2. It depends on the point, the options and the seed alone. Adds the
+  /// rays cast to `rays`.
+  Spectrum At(const GatherPoint& at, const DirectLightOptions& options, uint64_t seed,
+              int64_t* rays) const;
+
+ private:
+  /// One side of an emitting face.
+  struct Emitter {
+    Vec3f corners[3];    ///< counter-clockwise seen from the emitting side
+    Spectrum emittance;  ///< W/m2
+    Vec3f normal;
+    Vec3f center;
+    float area = 0;
+    float power = 0;  ///< W, mean of the bands
+  };
+  struct Node {
+    Vec3f center;
+    float radius = 0;
+    Vec3f axis;                      ///< unit, mean of the normals below; zero where they have none
+    float cosCone = 1, sinCone = 0;  ///< of the largest angle between a normal below and the axis
+    float power = 0;
+    int32_t begin = 0, end = 0;  ///< emitters below
+    int32_t second = -1;         ///< second child; the first follows its parent; -1: a leaf
+  };
+  /// A part of the emitters as seen from a point: a face whose light is known exactly, or a group.
+  struct Source {
+    int32_t node;
+    Spectrum exact;    ///< irradiance with nothing in the way; of a face
+    float weight = 0;  ///< by which rays are dealt out
+  };
+  static constexpr int kMostSources = 24;
+
+  void Add(int64_t face, Side side, const TriangleMesh& mesh);
+  int32_t Build(int32_t begin, int32_t end);
+  int Sources(const GatherPoint& at, Source* sources) const;
+  Source Weigh(int32_t node, const GatherPoint& at) const;
+  Source PickFace(const Source& source, const GatherPoint& at, float* u, float* chance) const;
+  bool PlaceOn(const Emitter& emitter, const GatherPoint& at, float u, float v, Vec3f* target,
+               float* value) const;
+  Spectrum Sample(const GatherPoint& at, const Source* sources, int count, float total, int rays,
+                  uint64_t seed, int* clear) const;
+  Spectrum FromEmitters(const GatherPoint& at, const DirectLightOptions& options, uint64_t seed,
+                        int64_t* rays) const;
+  Spectrum FromLight(const GatherPoint& at, const Light& light, int64_t* rays) const;
+
+  const RayScene& rayScene_;
+  float diagonal_;
+  std::vector<Light> lights_;
+  std::vector<Emitter> emitters_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace lambert

@@ -1,0 +1,46 @@
+// The delivered solution at its best: a final gather at every point of a mesh that is cut further
+// where the light between its points is not what they interpolate.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "Common/Core/Progress.h"
+#include "Radiosity/Core/ElementHierarchy.h"
+#include "Radiosity/Core/FinalGather.h"
+#include "Radiosity/Core/LinkRefinement.h"
+#include "Scene/Core/RadiositySolution.h"
+#include "Visibility/Core/RayScene.h"
+
+namespace lambert {
+
+struct GatheredSolutionOptions {
+  /// Rays over the hemisphere of a leaf of mean area, in each of two rounds; 0: leaves keep what
+  /// they had.
+  int leafRays = 8;
+  FinalGatherOptions gather;
+};
+
+/// Construct, Refine as often as wanted, Deliver.
+class GatheredSolution {
+ public:
+  /// Gathers at the leaves, so that what points see there is not what links made of it; `light`
+  /// keeps that. All by reference. Adds the rays cast to `rays`.
+  GatheredSolution(ElementHierarchy* hierarchy, ElementLight* light, const RayScene& rayScene,
+                   const std::vector<uint8_t>& litSides, const GatheredSolutionOptions& options,
+                   int64_t* rays);
+  ~GatheredSolution();
+
+  /// Gathers at the points, then cuts triangles and gathers at their points in up to `rounds`
+  /// rounds, until interpolation leaves about `error`, a relative RMS error, (0, 1]. Throws
+  /// Cancelled.
+  void Refine(double error, int rounds, const ProgressCallback& progress = {});
+  RadiositySolution Deliver() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace lambert
