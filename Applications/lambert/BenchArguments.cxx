@@ -91,7 +91,7 @@ void BenchArguments::Check() {
   }
   if (!quick) return;
   runs = 1;
-  errors = {0.5, 0.2};
+  errors = {0.5, 0.1};
   samples = {4, 16};
   gatherRays = {16, 64};
   elementSizes = {0.2, 0.1};

@@ -45,7 +45,7 @@ def agrees(delivered, reference, standard_error, tolerance):
 # CornellBox: the back wall, 1,000,000 paths.
 back_wall = (0.278, 0.3, 0.5592, 0, 0, -1)
 truth = (1.11816, 0.775321, 0.231128), (0.00033, 0.00023, 0.000057)
-agrees(reading(CORNELL_BOX, back_wall, "--error", 0.1, "--iterations", 6), *truth, 0.1)
+agrees(reading(CORNELL_BOX, back_wall, "--error", 0.03), *truth, 0.03)
 
 # RefinedMesh: the same point on the mesh of that picture, three iterations coarser. Each of them divides the threshold
 # by 4 or less and no error is promised for it; 0.2 is still less than the reflected light.

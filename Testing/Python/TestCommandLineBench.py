@@ -42,7 +42,7 @@ for row in rows:
 # The sweep: each method with its two values, the finer one better (their errors are a factor of 1.3 and more apart).
 sweep = {(row["method"], float(row["value"])): row for row in rows if row["study"] == "sweep"}
 assert {method for method, value in sweep} == METHODS
-for coarse, fine in ((("hierarchical", 0.5), ("hierarchical", 0.2)), (("reference", 4), ("reference", 16)),
+for coarse, fine in ((("hierarchical", 0.5), ("hierarchical", 0.1)), (("reference", 4), ("reference", 16)),
                      (("cached", 16), ("cached", 64)), (("matrix", 0.2), ("matrix", 0.1)),
                      (("progressive", 0.2), ("progressive", 0.1))):
     assert float(sweep[fine]["rms"]) < float(sweep[coarse]["rms"]), (sweep[coarse], sweep[fine])
@@ -94,7 +94,7 @@ kept = {name: os.stat(os.path.join(references, name)).st_mtime_ns for name in os
 bench(CORNELL_BOX, "--studies", "sweep", "--methods", "hierarchical")
 assert kept == {name: os.stat(os.path.join(references, name)).st_mtime_ns for name in os.listdir(references)}
 again = table("Measurements.csv")
-assert [row["rms"] for row in again] == [sweep["hierarchical", value]["rms"] for value in (0.5, 0.2)], again
+assert [row["rms"] for row in again] == [sweep["hierarchical", value]["rms"] for value in (0.5, 0.1)], again
 
 # What cannot be done is said.
 fails(1, "bench", CORNELL_BOX, "-o", folder, "--methods", "photon", "--no-charts", says=("photon", "matrix"))

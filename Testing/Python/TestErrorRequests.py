@@ -1,4 +1,4 @@
-"""A smaller `--error` gives a smaller measured error, on every small scene of Data that has light of its own and dark faces."""
+"""`--error` is kept, and a smaller one gives a smaller measured error, on every small scene of Data that has light of its own and dark faces."""
 import os
 
 from CommandLine import DATA, solve, temporary
@@ -18,6 +18,13 @@ for scene in SCENES:
         energy = report["energy_w"]
         for emitted, absorbed, escaped in zip(energy["emitted"], energy["absorbed"], energy["escaped"]):
             assert abs((absorbed + escaped) / emitted - 1) < 0.04, (scene, error, energy)
-    # The same points and paths measure all three, so that what they miss cancels.
+        # A fifth of play: the points that verified it were others, and the bounded error of two samples of 1000 differs by that.
+        counting = report["error"]["rms"]
+        if report["error"]["rms_high"] - report["error"]["rms_low"] > 0.3 * counting:
+            counting = report["error"]["bounded"]
+        assert counting <= 1.2 * error, (scene, error, report["error"])
+    # The same points and paths measure all three, so that what they miss cancels. Where the first solution that can be shown is
+    # far better than both requests already, nothing is refined between them.
     rms = [error["rms"] for error in measured]
-    assert rms[0] > rms[1] > rms[2] > 0, (scene, rms)
+    for (coarse, fine), asked in zip(zip(rms, rms[1:]), (0.1, 0.05)):
+        assert coarse > fine > 0 or coarse < 0.4 * asked, (scene, rms)

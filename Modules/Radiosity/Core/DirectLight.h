@@ -16,6 +16,7 @@ struct GatherPoint {
   Vec3f position;
   Vec3f normal;
   Vec3f geometricNormal;
+  float area = 0;  ///< m2 that it stands for: points of more get more rays; 0 where all are alike
 };
 
 struct DirectLightOptions {

@@ -19,6 +19,8 @@ constexpr int kBatch = 32;
 constexpr int64_t kBatchesAtOnce = 256;
 /// A leaf nearer than this many of its radii is not taken as one.
 constexpr float kNear = 1;
+/// Points that stand for large areas get up to this many times the rays.
+constexpr double kMostOfRays = 16;
 /// Light beyond this many times the mean of a batch is rare; points whose normals make a larger
 /// cosine than the other look the same way.
 constexpr float kRare = 8, kAlike = 0.9f;
@@ -329,12 +331,23 @@ std::vector<GatheredLight> FinalGather::At(const std::vector<GatherPoint>& point
   std::vector<GatheredLight> light(points.size());
   const int64_t batches = (int64_t(points.size()) + kBatch - 1) / kBatch;
   std::vector<int64_t> cast(size_t(batches), 0);
+  double area = 0;
+  for (const GatherPoint& point : points) area += double(point.area) / double(points.size());
   for (int64_t begin = 0; begin < batches; begin += kBatchesAtOnce) {
     if (!Report(progress, double(begin) / double(batches), "gathering")) throw Cancelled();
     ParallelForEach(std::min(kBatchesAtOnce, batches - begin), 1, [&](int64_t i) {
       const int64_t first = (begin + i) * kBatch;
       const int count = int(std::min<int64_t>(kBatch, int64_t(points.size()) - first));
-      this->GatherBatch(&points[size_t(first)], first, count, options, &light[size_t(first)],
+      FinalGatherOptions own = options;
+      if (area > 0) {
+        double mean = 0;
+        for (int p = 0; p < count; ++p) mean += double(points[size_t(first + p)].area) / count;
+        const double factor = std::min(kMostOfRays, std::max(1.0, mean / area));
+        own.rays = int(options.rays * factor);
+        own.direct.rays = int(options.direct.rays * factor);
+        own.direct.penumbraRays = int(options.direct.penumbraRays * factor);
+      }
+      this->GatherBatch(&points[size_t(first)], first, count, own, &light[size_t(first)],
                         &cast[size_t(begin + i)]);
     });
   }

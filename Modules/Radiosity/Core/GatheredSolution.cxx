@@ -96,6 +96,11 @@ void GatheredMesh::GatherAtNewPoints(int64_t* rays, const ProgressCallback& prog
   irradiance_.assign(points.size(), {});
   variance_.assign(points.size(), 0);
   isNew_.assign(points.size(), 0);
+  std::vector<float> areas(points.size(), 0);
+  for (size_t t = 0; t < mesh_.Triangles().size(); ++t) {
+    const float share = float(this->Area(int64_t(t))) / 3;
+    for (const int32_t p : mesh_.PointsOfTriangles()[t]) areas[size_t(p)] += share;
+  }
   std::vector<GatherPoint> places;
   std::vector<size_t> owners;
   for (size_t p = 0; p < points.size(); ++p) {
@@ -109,7 +114,7 @@ void GatheredMesh::GatherAtNewPoints(int64_t* rays, const ProgressCallback& prog
     const Vec3f inward = point.inside - point.position;
     const float least = kInsetOverSkip * skip_ / std::max(Length(inward), 1e-30f);
     places.push_back({point.position + inward * std::min(kMostInset, std::max(kInset, least)),
-                      point.normal, point.insideNormal});
+                      point.normal, point.insideNormal, areas[p]});
     owners.push_back(p);
     isNew_[p] = 1;
   }

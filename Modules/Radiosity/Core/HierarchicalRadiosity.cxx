@@ -39,12 +39,14 @@ constexpr int kGrowthSweeps = 10;
 /// Threshold, as a fraction of the power, to which links are refined for a wanted relative error.
 /// The final gather sees leaves from afar: they may be coarser than what is delivered; measured
 /// (Documentation/Stages).
-double FinalThreshold(double error) { return 1.6e-5 * std::pow(error / 0.05, 1.5); }
+double FinalThreshold(double error) { return 1.6e-5 * std::pow(std::min(error, 0.2) / 0.05, 1.5); }
 
 /// Share of the progress that the final gather takes.
 constexpr double kGatherShare = 0.6;
 /// Iterations of final gather before it is said that the error cannot be met.
 constexpr int kMostGathers = 4;
+/// An error counts as met a little below the request: the points that verify it are a sample.
+constexpr double kVerifiedBelow = 0.9;
 /// The next gather aims this far below the wanted error, and takes about this many times as long.
 constexpr double kAimBelow = 0.85, kGatherGrowth = 2;
 /// Points that are gathered at to predict how long all take, and the reserve for what they leave
@@ -57,8 +59,8 @@ constexpr int kVerificationSamples = 256;
 /// The final gather that usually gives a wanted relative error, measured (Documentation/Stages).
 GatheredSolutionOptions GatherFor(double error) {
   GatheredSolutionOptions options;
-  options.gather.rays = std::min(1024, std::max(25, int(0.12 / (error * error))));
-  options.gather.direct.rays = error > 0.03 ? 8 : 16;
+  options.gather.rays = std::min(1024, std::max(16, int(2.5 / error)));
+  options.gather.direct.rays = std::min(64, std::max(8, int(0.8 / error)));
   options.gather.direct.penumbraRays = std::min(256, std::max(8, int(1.2 / error)));
   return options;
 }
@@ -328,7 +330,7 @@ void HierarchicalRadiosity::GatherUntilMet(int iteration, const ProgressCallback
 
     // The border of an iteration.
     const bool goOn = !observer || observer(record);
-    const bool isMet = record.error <= self.options.error;
+    const bool isMet = record.error <= kVerifiedBelow * self.options.error;
     if (isMet || gather == kMostGathers) {
       statistics.stoppedBy = isMet ? "error" : "floor";
     } else if (self.options.iterations > 0 && record.iteration >= self.options.iterations) {

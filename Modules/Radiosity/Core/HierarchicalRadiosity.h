@@ -20,7 +20,7 @@ struct HierarchicalRadiosityOptions {
   int iterations = 0;  ///< iterations after which the run ends; 0: as many as the error asks for
   /// Points at which a path trace verifies the delivered error, which is improved until it is the
   /// wanted one, [0, inf); 0: what usually gives that error is taken for it.
-  int verificationPoints = 1000;
+  int verificationPoints = 2000;
   LeafMeshOptions leafMesh;
 };
 
