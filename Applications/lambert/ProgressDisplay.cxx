@@ -53,7 +53,8 @@ void ProgressDisplay::EndIteration(const IterationRecord& record) {
                 static_cast<long long>(record.elements), static_cast<long long>(record.links),
                 static_cast<long long>(record.rays), record.change);
   stage_ = text;
-  if (mode_ == Mode::Lines) Line(text);
+  if (record.error >= 0) stage_ += ", verified error " + std::to_string(record.error);
+  if (mode_ == Mode::Lines) Line(stage_);
 }
 
 void ProgressDisplay::Say(const std::string& sentence) {

@@ -126,7 +126,7 @@ assert done.returncode == 0 and json.loads(done.stdout)["scene"]["emitting_faces
 
 # On a terminal there is a bar, in a pipe there are lines.
 master, slave = pty.openpty()
-subprocess.run([LAMBERT, "solve", CORNELL_BOX, "-o", out, "--error", "0.2"], stderr=slave, stdout=subprocess.DEVNULL,
+subprocess.run([LAMBERT, "solve", CORNELL_BOX, "-o", out, "--error", "0.02"], stderr=slave, stdout=subprocess.DEVNULL,
                check=True)
 os.close(slave)
 shown = b""
