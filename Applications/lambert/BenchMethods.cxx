@@ -156,14 +156,6 @@ BenchOutcome RunHierarchical(const Scene& scene, double error, const ShownObserv
       outcome.clustering + outcome.setup + outcome.iterations + outcome.reconstruction;
   outcome.statistics = solver.Statistics();
 
-  // The final gather is the iteration that refines no link: it reconstructs.
-  const std::vector<IterationRecord>& history = outcome.statistics.history;
-  if (history.size() > 1 && history.back().links == history[history.size() - 2].links) {
-    const double gather = history.back().seconds - history[history.size() - 2].seconds;
-    outcome.iterations -= gather;
-    outcome.reconstruction += gather;
-  }
-
   // A final gather is reconstruction, though it is done in iterations.
   const double gather = shown ? 0 : GatherSeconds(outcome.statistics.history);
   outcome.iterations -= gather;
