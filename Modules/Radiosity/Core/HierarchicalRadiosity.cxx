@@ -43,7 +43,9 @@ double FinalThreshold(double error) { return 1.6e-5 * std::pow(std::min(error, 0
 
 /// Share of the progress that the final gather takes.
 constexpr double kGatherShare = 0.6;
-/// Iterations of final gather before it is said that the error cannot be met.
+/// Iterations of final gather before it is said that the error cannot be met, and what the error
+/// must fall to in one for another to be worth it.
+constexpr double kLeastGain = 0.95;
 constexpr int kMostGathers = 4;
 /// An error counts as met a little below the request: the points that verify it are a sample.
 constexpr double kVerifiedBelow = 0.9;
@@ -294,7 +296,7 @@ void HierarchicalRadiosity::GatherUntilMet(int iteration, const ProgressCallback
   SolverStatistics& statistics = self.statistics;
   const double before = statistics.history.back().seconds;
   const Timer timer;
-  double aim = kInterpolationShare * self.options.error;
+  double aim = kInterpolationShare * self.options.error, lastError = 0;
   GatheredSolution solution(&self.hierarchy, &self.light, self.rayScene, self.litSides,
                             GatherFor(self.options.error), &self.network.rays);
   for (int gather = 1;; ++gather) {
@@ -331,7 +333,9 @@ void HierarchicalRadiosity::GatherUntilMet(int iteration, const ProgressCallback
     // The border of an iteration.
     const bool goOn = !observer || observer(record);
     const bool isMet = record.error <= kVerifiedBelow * self.options.error;
-    if (isMet || gather == kMostGathers) {
+    const bool isStuck = gather > 1 && record.error > kLeastGain * lastError;
+    lastError = record.error;
+    if (isMet || isStuck || gather == kMostGathers) {
       statistics.stoppedBy = isMet ? "error" : "floor";
     } else if (self.options.iterations > 0 && record.iteration >= self.options.iterations) {
       statistics.stoppedBy = "iterations";
