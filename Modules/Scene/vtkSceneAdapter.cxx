@@ -79,6 +79,39 @@ void AddScalars(vtkDataSetAttributes* data, const char* name, const std::vector<
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   data->AddArray(array);
 }
+
+/// An array that a solution must have, a tuple for each of `count` points or cells.
+vtkDataArray* RequireArray(vtkDataSetAttributes* data, const char* name, int components,
+                           size_t count) {
+  vtkDataArray* array = data->GetArray(name);
+  if (!array || array->GetNumberOfComponents() != components ||
+      array->GetNumberOfTuples() != static_cast<vtkIdType>(count)) {
+    throw Error(std::string("The solution has no array ") + name + " of " +
+                std::to_string(components) + (components == 1 ? " component" : " components") +
+                "; it takes output port 0 of a radiosity method.");
+  }
+  return array;
+}
+
+std::vector<Spectrum> ReadSpectra(vtkDataArray* array) {
+  std::vector<Spectrum> values(static_cast<size_t>(array->GetNumberOfTuples()));
+  for (size_t i = 0; i < values.size(); ++i) {
+    for (int band = 0; band < 3; ++band) {
+      values[i][band] = static_cast<float>(array->GetComponent(static_cast<vtkIdType>(i), band));
+    }
+  }
+  return values;
+}
+
+/// Numbers of faces or sides, exact in a double.
+template <class T>
+std::vector<T> ReadNumbers(vtkDataArray* array) {
+  std::vector<T> values(static_cast<size_t>(array->GetNumberOfTuples()));
+  for (size_t i = 0; i < values.size(); ++i) {
+    values[i] = static_cast<T>(array->GetComponent(static_cast<vtkIdType>(i), 0));
+  }
+  return values;
+}
 }  // namespace
 
 Scene SceneAsStoredInPolyData(vtkPolyData* input) {
@@ -119,5 +152,18 @@ void PolyDataFromSolution(const RadiositySolution& solution, const Scene& scene,
   AddSpectra(output->GetPointData(), Names::Irradiance(), solution.irradiance);
   AddSpectra(output->GetPointData(), Names::Radiosity(), solution.radiosity);
   WriteSceneTables(scene, output->GetFieldData());
+}
+
+RadiositySolution SolutionFromPolyData(vtkPolyData* input) {
+  RadiositySolution solution;
+  solution.mesh = TriangleMeshFromPolyData(input);
+  const size_t faces = solution.mesh.triangles.size(), points = solution.mesh.positions.size();
+  vtkCellData* cells = input->GetCellData();
+  vtkPointData* pointData = input->GetPointData();
+  solution.inputFaceId = ReadNumbers<int64_t>(RequireArray(cells, Names::InputFaceId(), 1, faces));
+  solution.side = ReadNumbers<uint8_t>(RequireArray(cells, Names::Side(), 1, faces));
+  solution.irradiance = ReadSpectra(RequireArray(pointData, Names::Irradiance(), 3, points));
+  solution.radiosity = ReadSpectra(RequireArray(pointData, Names::Radiosity(), 3, points));
+  return solution;
 }
 }  // namespace lambert

@@ -29,6 +29,11 @@ LAMBERTSCENE_EXPORT void PolyDataFromScene(const Scene& scene, vtkPolyData* outp
 /// Irradiance and Radiosity at its points, and the tables of `scene`, whose rows its cells name.
 LAMBERTSCENE_EXPORT void PolyDataFromSolution(const RadiositySolution& solution, const Scene& scene,
                                               vtkPolyData* output);
+
+/// The solution that output port 0 of a method carries, `inputIrradiance` and `leafId` apart.
+/// Throws Error where InputFaceId, Side, Irradiance or Radiosity is missing or of the wrong shape,
+/// and for cells that are no triangles.
+LAMBERTSCENE_EXPORT RadiositySolution SolutionFromPolyData(vtkPolyData* input);
 }  // namespace lambert
 
 #endif

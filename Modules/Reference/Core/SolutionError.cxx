@@ -106,6 +106,36 @@ std::vector<Place> WithoutDarkPlaces(std::vector<Place> places, const SolutionLo
   return kept;
 }
 
+/// True where `p` lies on the face, or nearer to it than `far` by height and by every edge.
+bool LiesOn(const TriangleMesh& mesh, int32_t face, const Vec3f& p, float far) {
+  const Vec3f normal = mesh.FrontNormal(face);
+  for (int c = 0; c < 3; ++c) {
+    const Vec3f offset = p - mesh.Corner(face, c);
+    const Vec3f edge = Normalize(mesh.Corner(face, (c + 1) % 3) - mesh.Corner(face, c));
+    if (std::abs(Dot(offset, normal)) > far) return false;
+    if (Dot(Cross(edge, offset), normal) < -far) return false;
+  }
+  return true;
+}
+
+/// Refuses a solution whose triangles do not lie on the faces that they name.
+void RequireSameScene(const std::vector<Place>& places, const SolutionLookup& lookup,
+                      const Scene& scene, const TriangleMesh& refined) {
+  constexpr float kFar = 1e-3f;  // of the diagonal; what is refined lies on its face to rounding
+  const float far = kFar * scene.mesh.Bounds().Diagonal();
+  for (const Place& place : places) {
+    const int32_t triangle = lookup.Find(place.face, place.side, place.receiver.position).triangle;
+    if (triangle < 0) continue;
+    const Vec3f centre =
+        (refined.Corner(triangle, 0) + refined.Corner(triangle, 1) + refined.Corner(triangle, 2)) /
+        3.f;
+    if (LiesOn(scene.mesh, place.face, centre, far)) continue;
+    throw Error(
+        "The solution does not lie on the scene's faces; it belongs to another scene, or to the "
+        "same one with its faces in another order.");
+  }
+}
+
 Comparison Compare(const Spectrum& delivered, const IrradianceEstimate& reference) {
   Comparison c;
   const double error = SquaredNorm(delivered - reference.irradiance);
@@ -182,6 +212,7 @@ SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& 
 
   // Places that may receive light, and the truth there.
   const std::vector<Place> all = StratifiedPlaces(scene.mesh, options);
+  RequireSameScene(all, lookup, scene, solution.mesh);
   const std::vector<Place> places = WithoutDarkPlaces(all, lookup, tracer, options);
   PathTracedIrradianceOptions trace;
   trace.samples = options.samples;

@@ -41,7 +41,8 @@ struct SolutionError {
 /// trace of `scene`, whose mesh it solved. A side that the solution does not model counts with 0
 /// where the reference finds light there; where the reference finds none within two standard errors
 /// it does not count. A scene without light has no error. Throws Error where the solution belongs
-/// to another scene, for fewer than 1 point or 2 samples; Cancelled.
+/// to another scene or does not lie on the faces that it names, for fewer than 1 point or 2
+/// samples; Cancelled.
 SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& solution,
                                    const SolutionErrorOptions& options = {},
                                    const ProgressCallback& progress = {});

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "Common/Core/Error.h"
 #include "Common/Testing/SolutionFixtures.h"
 #include "Common/Testing/TestScenes.h"
@@ -99,6 +101,10 @@ TEST(SolutionError, RefusesAnotherScenesSolution) {
   Scene small;
   AddQuad(&small.mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Spectrum(0.f));
   EXPECT_THROW(MeasureSolutionError(small, FlatSolution(scene, 1, 1)), Error);
+  // As many faces, in another order: as clustering leaves a mesh.
+  Scene turned = scene;
+  std::reverse(turned.mesh.triangles.begin(), turned.mesh.triangles.end());
+  EXPECT_THROW(MeasureSolutionError(turned, FlatSolution(scene, 1, 1), {200, 64, 1}), Error);
   EXPECT_THROW(MeasureSolutionError(scene, FlatSolution(scene, 1, 1), {0, 64, 1}), Error);
   EXPECT_THROW(MeasureSolutionError(scene, FlatSolution(scene, 1, 1), {10, 1, 1}), Error);
 }
