@@ -29,6 +29,7 @@ vtkHierarchicalRadiosity::~vtkHierarchicalRadiosity() = default;
 lambertOptionMacro(Error, double, error);
 lambertOptionMacro(TimeLimit, double, timeLimit);
 lambertOptionMacro(Iterations, int, iterations);
+lambertOptionMacro(VerificationPoints, int, verificationPoints);
 #undef lambertOptionMacro
 
 namespace {
@@ -56,6 +57,10 @@ void RequireOptions(const lambert::HierarchicalRadiosityOptions& options) {
   if (!(options.error > 0 && options.error <= 1)) {
     throw lambert::Error("The error is " + std::to_string(options.error) +
                          "; it must lie in (0, 1].");
+  }
+  if (options.verificationPoints < 0) {
+    throw lambert::Error("The error is verified at 0 points or more, not at " +
+                         std::to_string(options.verificationPoints) + ".");
   }
 }
 }  // namespace
@@ -97,5 +102,6 @@ void vtkHierarchicalRadiosity::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Error: " << this->GetError() << "\n"
      << indent << "TimeLimit: " << this->GetTimeLimit() << "\n"
-     << indent << "Iterations: " << this->GetIterations() << "\n";
+     << indent << "Iterations: " << this->GetIterations() << "\n"
+     << indent << "VerificationPoints: " << this->GetVerificationPoints() << "\n";
 }

@@ -8,8 +8,8 @@
  * the refined mesh with `Irradiance` and `Radiosity` (W/m2) at its points; `InputFaceId` counts the
  * triangles of input port 0. The tables of the input (materials, parts, lights) come along.
  * Output port 1: the history, a row an iteration (iteration, seconds, threshold, elements, links,
- * rays, change, error). Output port 2: the input as it came, plus `Irradiance` and `Radiosity` at its
- * points (their brighter side, the mean where the faces about a point have several normals).
+ * rays, change, error). Output port 2: the input as it came, plus `Irradiance` and `Radiosity` at
+ * its points (their brighter side, the mean where the faces about a point have several normals).
  *
  * While it runs: ProgressEvent; AbortExecute ends the run and keeps its last whole iteration. After
  * every iteration an observer of vtkCommand::UpdateDataEvent finds a displayable solution on output
@@ -45,6 +45,13 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   ///@{ Iterations after which the run ends; default 0: as many as the error asks for.
   void SetIterations(int iterations);
   int GetIterations();
+  ///@}
+  ///@{ Points at which a path trace verifies the delivered error after every final gather, which is
+  /// repeated on a finer mesh until the error is met; [0, inf), default 2000. The column `error` of
+  /// the history has what was found. 0: nothing is verified, one gather is made that usually gives
+  /// the error.
+  void SetVerificationPoints(int points);
+  int GetVerificationPoints();
   ///@}
 
  protected:

@@ -56,14 +56,15 @@ def light_at_points(method):
 # Options, defaults, and the base class that carries the contract.
 method = lambert.vtkHierarchicalRadiosity()
 assert isinstance(method, lambert.vtkRadiosityAlgorithm)
-for name, default, other in (("Error", 0.05, 0.2), ("TimeLimit", 0.0, 60.0), ("Iterations", 0, 7), ("NumberOfThreads", 0, 2)):
+for name, default, other in (("Error", 0.05, 0.2), ("TimeLimit", 0.0, 60.0), ("Iterations", 0, 7),
+                             ("VerificationPoints", 2000, 0), ("NumberOfThreads", 0, 2)):
     assert getattr(method, "Get" + name)() == default, name
     getattr(method, "Set" + name)(other)
     assert getattr(method, "Get" + name)() == other, name
 assert method.GetSky() == (0, 0, 0)
 method.SetSky(1, 2, 3)
 assert method.GetSky() == (1, 2, 3)
-assert method.GetStoppedBy() == ""
+assert method.GetStoppedBy() == "" and "VerificationPoints: 0" in str(method)
 assert method.GetNumberOfInputPorts() == 2 and method.GetNumberOfOutputPorts() == 3
 
 # Ports: refined mesh, history, input with light.
@@ -120,6 +121,17 @@ unwatched.SetInputData(scene)
 unwatched.SetIterations(3)
 unwatched.Update()
 assert np.array_equal(light_at_points(unwatched), light_at_points(watched))  # Watching changes no light.
+
+# The history holds the verified error of every final gather; without verification, of none.
+found = vtk_to_numpy(history.GetColumnByName("error"))
+assert found[0] == -1 and 0 <= found[-1] and (found[-1] <= 0.3 or method.GetStoppedBy() != "error"), found
+unverified = lambert.vtkHierarchicalRadiosity()
+unverified.SetInputData(scene)
+unverified.SetError(0.3)
+unverified.SetVerificationPoints(0)
+unverified.Update()
+assert (vtk_to_numpy(unverified.GetOutputDataObject(1).GetColumnByName("error")) == -1).all()
+assert unverified.GetStoppedBy() == "error"
 
 # An abort after the first iteration keeps that iteration.
 aborted = lambert.vtkHierarchicalRadiosity()
@@ -192,7 +204,7 @@ outside.Update()
 assert np.allclose(array(outside.GetOutputDataObject(2), "Irradiance"), np.pi * np.array([1, 2, 3]), rtol=0.02)
 
 # Options without meaning are errors, not endless runs.
-for option, value in (("Error", -1), ("Error", 0), ("Error", 2), ("Sky", (-1, 0, 0))):
+for option, value in (("Error", -1), ("Error", 0), ("Error", 2), ("VerificationPoints", -1), ("Sky", (-1, 0, 0))):
     broken = lambert.vtkHierarchicalRadiosity()
     getattr(broken, "Set" + option)(value)
     errors = []
