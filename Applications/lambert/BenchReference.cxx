@@ -1,7 +1,5 @@
 #include "BenchReference.h"
 
-#include "BenchError.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <cstring>

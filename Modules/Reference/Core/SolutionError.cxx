@@ -80,6 +80,7 @@ std::vector<Place> StratifiedPlaces(const TriangleMesh& mesh, const SolutionErro
 
 std::vector<ReceiverPoint> Receivers(const std::vector<Place>& places) {
   std::vector<ReceiverPoint> receivers;
+  receivers.reserve(places.size());
   for (const Place& place : places) receivers.push_back(place.receiver);
   return receivers;
 }
@@ -89,7 +90,7 @@ double SquaredNorm(const Spectrum& s) {
 }
 
 /// Leaves out, at little cost, the places that are dark in the solution and in a few paths.
-std::vector<Place> WithoutDarkPlaces(std::vector<Place> places, const SolutionLookup& lookup,
+std::vector<Place> WithoutDarkPlaces(const std::vector<Place>& places, const SolutionLookup& lookup,
                                      const PathTracedIrradiance& tracer,
                                      const SolutionErrorOptions& options) {
   std::vector<Place> kept, doubtful;
@@ -175,19 +176,29 @@ void Bootstrap(const std::vector<Comparison>& comparisons, uint64_t seed, Soluti
   error->rmsHigh = values[size_t(0.975 * kBootstraps)];
 }
 
-void Summarize(const std::vector<Comparison>& comparisons, SolutionError* error) {
-  double delivered = 0, truth = 0, meanReference = 0, variance = 0, squares = 0;
-  for (const Comparison& c : comparisons) {
-    delivered += c.delivered, truth += c.truth, variance += c.variance;
-    meanReference += c.reference / double(comparisons.size());
+}  // namespace
+
+SolutionError SummarizeError(const std::vector<Spectrum>& delivered,
+                             const std::vector<IrradianceEstimate>& reference, uint64_t seed) {
+  SolutionError error;
+  error.points = int64_t(delivered.size());
+  std::vector<Comparison> comparisons;
+  double arriving = 0, truth = 0, meanReference = 0, variance = 0, squares = 0;
+  for (size_t i = 0; i < delivered.size(); ++i) {
+    const Comparison c = Compare(delivered[i], reference[i]);
+    comparisons.push_back(c);
+    arriving += c.delivered, truth += c.truth, variance += c.variance;
+    meanReference += c.reference / double(delivered.size());
     squares += c.squaredReference;
   }
   // No light at all: nothing to miss.
-  if (!(truth > 0)) return;
-  error->rms = RelativeRms(comparisons, [](size_t i) { return i; });
-  error->bias = (delivered - truth) / truth;
-  error->noise = squares > 0 ? std::sqrt(variance / squares) : 0;
+  if (!(truth > 0)) return error;
+  error.rms = RelativeRms(comparisons, [](size_t i) { return i; });
+  error.bias = (arriving - truth) / truth;
+  error.noise = squares > 0 ? std::sqrt(variance / squares) : 0;
+  Bootstrap(comparisons, seed, &error);
 
+  // Bounded error, and the tail of the pointwise one.
   double bounded = 0;
   std::vector<double> relative;
   for (const Comparison& c : comparisons) {
@@ -195,13 +206,12 @@ void Summarize(const std::vector<Comparison>& comparisons, SolutionError* error)
     bounded += c.squaredError / (scale * scale) / double(comparisons.size());
     relative.push_back(c.error / std::max(c.reference, 1e-3 * meanReference));
   }
-  error->bounded = std::sqrt(std::max(0.0, bounded));
+  error.bounded = std::sqrt(std::max(0.0, bounded));
   const auto rank = relative.begin() + int64_t(0.95 * double(relative.size() - 1));
   std::nth_element(relative.begin(), rank, relative.end());
-  error->percentile95 = *rank;
+  error.percentile95 = *rank;
+  return error;
 }
-
-}  // namespace
 
 SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& solution,
                                    const SolutionErrorOptions& options,
@@ -219,25 +229,24 @@ SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& 
   trace.seed = options.seed;
   const auto reference = tracer.Estimate(Receivers(places), trace, progress);
 
-  // What the solution delivers there.
-  SolutionError error;
-  std::vector<Comparison> comparisons;
+  // What the solution delivers there; a side that it leaves out counts where light is sure.
+  std::vector<Spectrum> delivered;
+  std::vector<IrradianceEstimate> truth;
+  int64_t missed = 0;
   for (size_t i = 0; i < places.size(); ++i) {
     const Place& place = places[i];
-    const Comparison c =
-        Compare(lookup.Irradiance(lookup.Find(place.face, place.side, place.receiver.position)),
-                reference[i]);
     if (!lookup.Models(place.face, place.side)) {
-      if (c.reference <= 2 * std::sqrt(c.variance)) continue;
-      ++error.missedPoints;
+      const double noise = SquaredNorm(reference[i].standardError);
+      if (SquaredNorm(reference[i].irradiance) <= 4 * noise) continue;
+      ++missed;
     }
-    comparisons.push_back(c);
+    delivered.push_back(
+        lookup.Irradiance(lookup.Find(place.face, place.side, place.receiver.position)));
+    truth.push_back(reference[i]);
   }
-  error.points = int64_t(comparisons.size());
-  error.darkPoints = int64_t(all.size()) - error.points;
-  if (comparisons.empty()) return error;
-  Summarize(comparisons, &error);
-  Bootstrap(comparisons, options.seed, &error);
+  SolutionError error = SummarizeError(delivered, truth, options.seed);
+  error.darkPoints = int64_t(all.size() - delivered.size());
+  error.missedPoints = missed;
   return error;
 }
 

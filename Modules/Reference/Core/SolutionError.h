@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "Common/Core/Progress.h"
+#include "Reference/Core/PathTracedIrradiance.h"
 #include "Scene/Core/RadiositySolution.h"
 #include "Scene/Core/Scene.h"
 
@@ -36,6 +38,11 @@ struct SolutionError {
   /// interval is wider than 30 % of it.
   double Counting() const { return rmsHigh - rmsLow > 0.3 * rms ? bounded : rms; }
 };
+
+/// The figures of irradiance `delivered` (W/m2) against its `reference`, one a point, which are the
+/// receiving points; none is dark or missed. `seed`: of the bootstraps. No light: no error.
+SolutionError SummarizeError(const std::vector<Spectrum>& delivered,
+                             const std::vector<IrradianceEstimate>& reference, uint64_t seed = 1);
 
 /// Compares the irradiance that `solution` delivers (interpolated from its vertices) with a path
 /// trace of `scene`, whose mesh it solved. A side that the solution does not model counts with 0

@@ -96,6 +96,34 @@ TEST(SolutionError, NoLightNoError) {
   EXPECT_EQ(error.bias, 0);
 }
 
+// Four points of light 1, 1, 1, 5, the last twice as bright as it should be; worked out by hand.
+TEST(SolutionError, SummarizesWhatWasDelivered) {
+  const std::vector<IrradianceEstimate> exact{{Spectrum(1.f), Spectrum(0.f)},
+                                              {Spectrum(1.f), Spectrum(0.f)},
+                                              {Spectrum(1.f), Spectrum(0.f)},
+                                              {Spectrum(5.f), Spectrum(0.f)}};
+  const std::vector<Spectrum> delivered{Spectrum(1.f), Spectrum(0.f), Spectrum(1.f),
+                                        Spectrum(10.f)};
+  const SolutionError error = SummarizeError(delivered, exact);
+  EXPECT_EQ(error.points, 4);
+  EXPECT_EQ(error.darkPoints + error.missedPoints, 0);
+  EXPECT_NEAR(error.rms, std::sqrt(26.0 / 28), 1e-6);
+  EXPECT_NEAR(error.bias, (12.0 - 8) / 8, 1e-6);
+  // The mean is 2: errors count 0, 1/2, 0 and 1.
+  EXPECT_NEAR(error.bounded, std::sqrt(1.25 / 4), 1e-6);
+  EXPECT_NEAR(error.percentile95, 1, 1e-6);
+  EXPECT_EQ(error.noise, 0);
+  EXPECT_LE(error.rmsLow, error.rms);
+  EXPECT_GE(error.rmsHigh, error.rms);
+  // A standard error of 1 a band at the last point takes 3 off 3 x 26 and off 3 x 28.
+  std::vector<IrradianceEstimate> noisy = exact;
+  noisy.back().standardError = Spectrum(1.f);
+  EXPECT_NEAR(SummarizeError(delivered, noisy).rms, std::sqrt(25.0 / 27), 1e-6);
+  EXPECT_NEAR(SummarizeError(delivered, noisy).noise, std::sqrt(1.0 / 27), 1e-6);
+  EXPECT_EQ(SummarizeError({}, {}).points, 0);
+  EXPECT_EQ(SummarizeError({}, {}).rms, 0);
+}
+
 TEST(SolutionError, RefusesAnotherScenesSolution) {
   const Scene scene = BlackFurnace();
   Scene small;
