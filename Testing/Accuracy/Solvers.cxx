@@ -38,6 +38,9 @@ RadiositySolution SolveProgressive(double error, Scene* scene, SolverStatistics*
 RadiositySolution SolveCached(double, Scene* scene, SolverStatistics* statistics) {
   CachedRadiosityOptions options;
   options.elementSize = kElementSize / 2;  // cells mix what lies beside one another
+  // Among hundreds of emitters that hide each other few rays choose badly: with the usual 16 the
+  // noise of direct light alone is up to 0.4.
+  options.emitterRays = 64;
   return SolveCachedRadiosity(*scene, options, statistics);
 }
 
