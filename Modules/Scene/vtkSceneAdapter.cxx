@@ -128,7 +128,7 @@ Scene SceneAsStoredInPolyData(vtkPolyData* input) {
 
 Scene SceneFromPolyData(vtkPolyData* input, double featureAngle) {
   Scene scene = SceneAsStoredInPolyData(input);
-  if (scene.mesh.normals.empty() && !scene.mesh.positions.empty()) {
+  if (!HasUnitNormals(scene.mesh)) {
     MeshTopology topology = ConnectFaces(scene.mesh);
     CompletePointNormals(featureAngle, &scene.mesh, &topology);
   }

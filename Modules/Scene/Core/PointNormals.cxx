@@ -102,6 +102,14 @@ void CopyPoint(int32_t point, TriangleMesh* mesh, MeshTopology* topology) {
 
 }  // namespace
 
+bool HasUnitNormals(const TriangleMesh& mesh) {
+  constexpr double kRounding = 1e-3;  // Normals are stored with few bits, too.
+  return mesh.normals.size() == mesh.positions.size() &&
+         std::all_of(mesh.normals.begin(), mesh.normals.end(), [](const Vec3f& normal) {
+           return std::abs(LengthSquared(Vec3d(normal)) - 1) <= kRounding;
+         });
+}
+
 PointNormalCounts CompletePointNormals(double featureAngle, TriangleMesh* mesh,
                                        MeshTopology* topology) {
   // The file's own normals stay.

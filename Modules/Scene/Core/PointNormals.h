@@ -5,6 +5,9 @@
 
 namespace lambert {
 
+/// True where every point has a normal of unit length.
+bool HasUnitNormals(const TriangleMesh& mesh);
+
 struct PointNormalCounts {
   int64_t made = 0;      ///< points of the result whose normal was made because the mesh had none
   int64_t repaired = 0;  ///< points of the result whose normal was zero or not finite in the file

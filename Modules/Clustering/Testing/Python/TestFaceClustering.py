@@ -3,6 +3,7 @@ import lambert
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy, numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkIntArray
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 
 
@@ -120,4 +121,17 @@ clustering.AddObserver("ErrorEvent", lambda *_: errors.append(1))
 clustering.SetBalance(-1)
 clustering.Update()
 assert len(errors) >= 1
+
+# Normals of no direction or length are made anew, as where there are none; longer ones keep their direction.
+odd = vtkPolyData()
+odd.DeepCopy(source.GetOutput())
+normals = np.tile(np.array([0, 0, 2], np.float32), (odd.GetNumberOfPoints(), 1))
+normals[::3], normals[1::3] = np.nan, 0
+odd.GetPointData().SetNormals(numpy_to_vtk(normals, deep=1))
+clusters = lambert.vtkFaceClustering()
+clusters.SetInputData(odd)
+clusters.Update()
+made = vtk_to_numpy(clusters.GetOutput().GetPointData().GetNormals())
+assert np.allclose(np.linalg.norm(made, axis=1), 1)
+assert np.isclose(made, [0, 0, 1]).all(axis=1).sum() >= len(normals[2::3])
 print("face clustering: passed")
