@@ -193,6 +193,9 @@ std::string LoadFile(const std::string& path) {
   if (fs::is_directory(path, failure)) {
     throw Error("\"" + path + "\" is a folder; name a file in it.");
   }
+  if (!fs::is_regular_file(path, failure)) {
+    throw Error("\"" + path + "\" is a device or a pipe; name a file.");
+  }
   std::ifstream stream(path, std::ios::binary);
   std::string bytes;
   if (stream) {
@@ -204,12 +207,20 @@ std::string LoadFile(const std::string& path) {
   return bytes;
 }
 
-ObjScan ScanObj(const std::string& path, const std::string& text) {
+ObjScan ScanObj(const std::string& path, std::string text) {
+  // What would hide lines from the importer: a byte order mark, line ends of old Macs.
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
+  std::string_view rest(text);
+  if (rest.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
+    rest.remove_prefix(kByteOrderMark.size());
+  }
+
   ObjScan scan;
   scan.text.reserve(text.size() + text.size() / 64);
-  std::string_view rest(text);
   for (int64_t number = 1; !rest.empty(); ++number) {
-    const std::string_view line = NextLine(&rest);
+    std::string_view line = NextLine(&rest);
+    while (!line.empty() && IsBlank(line.front())) line.remove_prefix(1);  // Nor indentation.
     const bool vertex =
         line.size() > 2 && line[0] == 'v' && (IsBlank(line[1]) || line[1] == 't' || line[1] == 'n');
     if (vertex && CheckVertexLine(line, path, number)) {
@@ -218,8 +229,9 @@ ObjScan ScanObj(const std::string& path, const std::string& text) {
       scan.text += line;
     }
     scan.text += '\n';
-    if (line.substr(0, 7) == "mtllib ") {
-      const std::string name(Trim(line.substr(7)));
+    std::string_view words(line);
+    if (line.substr(0, 6) == "mtllib" && NextWord(&words) == "mtllib") {
+      const std::string name(Trim(words));
       const fs::path library = fs::path(path).parent_path() / name;
       if (!ScanMtl(library, &scan.materials)) scan.missingMtl.push_back(name);
     }

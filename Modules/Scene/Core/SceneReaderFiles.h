@@ -29,7 +29,7 @@ struct ObjScan {
 
 /// Checks every number of the vertices. Throws Error, with the line, where one is missing or not
 /// finite.
-ObjScan ScanObj(const std::string& path, const std::string& text);
+ObjScan ScanObj(const std::string& path, std::string text);
 
 /// Throws Error where the file ends before the elements that its header announces.
 void CheckPly(const std::string& path, const std::string& bytes);

@@ -201,6 +201,27 @@ TEST_F(SceneReaderTest, DegenerateFacesAndNormalsAreKept) {
   EXPECT_EQ(mesh.normals.at(0), Vec3f(0, 1, 0));
 }
 
+TEST_F(SceneReaderTest, ObjTextInEveryDress) {
+  // Lines that the importer would drop without a word: the material says whether all were read.
+  Write("m.mtl", "newmtl lamp\n\tKd 0.1 0.2 0.3\n\tKe 1 2 3\n");
+  const std::string lines = std::string("mtllib m.mtl\n") + kTriangle + "usemtl lamp\nf 1 2 3\n";
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = lines;
+    for (size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+      text.replace(at, from.size(), to);
+    }
+    return text;
+  };
+  for (const std::string& text : {"\xEF\xBB\xBF" + lines, with("\n", "\r\n"), with("\n", "\r"),
+                                  with("\n", "\n  "), "\t" + lines, with("mtllib ", "mtllib\t")}) {
+    const SceneAssembly scene = ReadScene({Write("s.obj", text)});
+    EXPECT_TRUE(scene.report.warnings.empty()) << text;
+    EXPECT_EQ(MeshOf(scene, "lamp").FaceCount(), 1) << text;
+    ExpectNear(Named(scene, "lamp").reflectance, {0.1f, 0.2f, 0.3f});
+    ExpectNear(Named(scene, "lamp").emittance, Spectrum(1, 2, 3) * 3.14159265f);
+  }
+}
+
 TEST_F(SceneReaderTest, MissingMaterialLibraryIsAWarning) {
   const std::string file =
       Write("s.obj", std::string("mtllib gone.mtl\n") + kTriangle + "usemtl red\nf 1 2 3\n");
@@ -521,6 +542,7 @@ TEST_F(SceneReaderTest, FilesAreConcatenated) {
 TEST_F(SceneReaderTest, BrokenFiles) {
   ExpectSentence((folder_ / "gone.obj").string(), "does not exist");
   ExpectSentence(folder_.string(), "is a folder");
+  ExpectSentence("/dev/null", "is a device");
   ExpectSentence(Write("empty.obj", ""), "is empty");
   ExpectSentence(Write("big.off", "OFF\n353535235358 6 0\n0 0 0\n"), "more points than");
   ExpectSentence(Write("a.unknown", "hello"), "cannot be read");
@@ -528,6 +550,8 @@ TEST_F(SceneReaderTest, BrokenFiles) {
                  "holds no triangle");
   ExpectSentence(Write("index.obj", std::string(kTriangle) + "f 1 2 4\n"), "index out of range");
   ExpectSentence(Write("nan.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n"),
+                 "\"nan\" is not a finite number in line 2");
+  ExpectSentence(Write("indented.obj", "v 0 0 0\n  v 1 nan 0\nv 0 1 0\nf 1 2 3\n"),
                  "\"nan\" is not a finite number in line 2");
   ExpectSentence(Write("inf.obj", "v 0 0 0\nv 1 1e99 0\nv 0 1 0\nf 1 2 3\n"),
                  "\"1e99\" is not a finite number");
