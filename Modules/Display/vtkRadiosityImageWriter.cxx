@@ -239,20 +239,20 @@ vtkSmartPointer<vtkImageData> vtkRadiosityImageWriter::Draw(vtkPolyData* data, c
 }
 
 void vtkRadiosityImageWriter::WriteImage(vtkImageData* image) {
-  if (!std::ofstream(this->FileName, std::ios::app)) {
-    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
-    throw lambert::Error(std::string("The picture ") + this->FileName + " cannot be written.");
-  }
   vtkNew<vtkImageShrink3D> average;
   average->SetInputData(image);
   average->SetShrinkFactors(kSupersampling, kSupersampling, 1);
   average->AveragingOn();
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputConnection(average->GetOutputPort());
-  writer->SetFileName(this->FileName);
+  // Into memory first: libpng prints what a file refuses.
+  writer->WriteToMemoryOn();
   writer->Write();
-  if (writer->GetErrorCode() != vtkErrorCode::NoError) {
-    this->SetErrorCode(writer->GetErrorCode());
+  vtkUnsignedCharArray* png = writer->GetResult();
+  std::ofstream file(this->FileName, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(png->GetPointer(0)), png->GetNumberOfValues());
+  if (!file.flush()) {
+    this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
     throw lambert::Error(std::string("The picture ") + this->FileName + " could not be written.");
   }
 }

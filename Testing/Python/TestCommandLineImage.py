@@ -1,10 +1,12 @@
 """`lambert solve --image`: a picture of the asked-for size, exposed, neither black nor blown."""
+import os
+
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkPNGReader
 
 import lambert
-from CommandLine import CORNELL_BOX, solve, temporary
+from CommandLine import CORNELL_BOX, fails, solve, temporary
 
 if not lambert.vtkRadiosityImageWriter.IsDisplayAvailable():
     raise SystemExit(0)  # What happens then is asserted in TestCommandLineErrors.py.
@@ -26,3 +28,12 @@ assert 30 < plain.mean() < 200, plain.mean()
 assert np.percentile(plain, 98) > 100  # Something is lit
 assert np.mean(plain.min(axis=1) > 250) < 0.2  # and most is not blown.
 assert brighter.mean() > plain.mean() + 5
+
+# A device that takes no byte stands for a full disk: one sentence, and no word of the PNG library.
+full = temporary("full.png")
+if os.path.lexists(full):
+    os.remove(full)
+os.symlink("/dev/full", full)
+fails(1, "solve", CORNELL_BOX, "-o", temporary("box-image.vtp"), "--iterations", "1", "--progress", "none", "--image",
+      full, says=["could not be written"])
+os.remove(full)
