@@ -1,6 +1,7 @@
 #include "ProbeFile.h"
 
 #include "Common/Core/Error.h"
+#include "Scene/Core/SceneLimits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +42,9 @@ ProbePoint ParsePoint(const std::vector<std::string>& fields, const std::string&
     }
   }
   const ProbePoint point{{values[0], values[1], values[2]}, {values[3], values[4], values[5]}};
+  if (!IsWithinReach(point.position)) {
+    throw Error(place + " has a coordinate beyond 1e15 m.");
+  }
   if (point.normal == Vec3f()) {
     throw Error(place + " has a zero normal; a probe needs a direction to face.");
   }

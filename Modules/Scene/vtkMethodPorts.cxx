@@ -1,6 +1,7 @@
 #include "vtkMethodPorts.h"
 
 #include "Common/Core/Error.h"
+#include "Scene/Core/SceneLimits.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
 #include "vtkNew.h"
@@ -45,6 +46,7 @@ vtkSmartPointer<vtkFloatArray> ToArray(const char* name, const std::vector<Spect
 MethodScene MethodSceneFromPolyData(vtkPolyData* input, const double sky[3]) {
   MethodScene methodScene;
   methodScene.scene = SceneFromPolyData(input);
+  RequireSolvableSize(methodScene.scene.mesh);
   methodScene.inputTriangles = SceneAsStoredInPolyData(input).mesh.triangles;
   methodScene.inputFace.resize(methodScene.scene.mesh.triangles.size());
   std::iota(methodScene.inputFace.begin(), methodScene.inputFace.end(), 0);

@@ -1,6 +1,7 @@
 #include "vtkSceneLoader.h"
 
 #include "Common/Core/Error.h"
+#include "Scene/Core/SceneLimits.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
@@ -10,6 +11,7 @@
 #include "vtkSceneAdapter.h"
 #include "vtkXMLPolyDataReader.h"
 
+#include <cmath>
 #include <vtksys/SystemTools.hxx>
 
 namespace lambert {
@@ -159,6 +161,11 @@ Scene LoadScene(const std::vector<std::string>& files, const SceneReaderOptions&
     };
   };
 
+  if (!(readerOptions.metresPerUnit >= 0 && std::isfinite(readerOptions.metresPerUnit))) {
+    throw Error("The length of the unit is " + std::to_string(readerOptions.metresPerUnit) +
+                " m; it must be a positive number, or 0 for the file's own.");
+  }
+
   // Read.
   std::vector<std::string> vtpFiles, otherFiles;
   for (const std::string& file : files) {
@@ -193,9 +200,11 @@ Scene LoadScene(const std::vector<std::string>& files, const SceneReaderOptions&
     *readReport = assembly.report;
   }
 
-  // Clean and place; parts that were stored in the world get back the matrices they were stored
-  // with.
+  // Clean and place.
   Scene scene = AssembleScene(std::move(assembly), cleaningOptions, cleaningReport, half(0.5));
+  RequireSolvableSize(scene.mesh);
+
+  // Parts that were stored in the world get back the matrices they were stored with.
   for (const auto& [part, matrix] : storedMatrices) {
     scene.parts[part].objectToWorld = matrix;
   }

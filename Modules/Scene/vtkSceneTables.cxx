@@ -1,6 +1,7 @@
 #include "vtkSceneTables.h"
 
 #include "Common/Core/Error.h"
+#include "Scene/Core/SceneLimits.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -187,6 +188,7 @@ void ReadLights(vtkFieldData* fields, std::vector<Light>* lights) {
   table.Numbers(Names::LightConeAngles(), 2, [&](size_t row, int c, double value) {
     (c == 0 ? l[row].innerConeAngle : l[row].outerConeAngle) = static_cast<float>(value);
   });
+  RequireSolvableLights(l);
 }
 
 void WriteLights(const std::vector<Light>& l, vtkFieldData* fields) {

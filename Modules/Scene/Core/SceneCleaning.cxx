@@ -8,11 +8,21 @@
 #include "Scene/Core/InvertedEmitters.h"
 #include "Scene/Core/MeshRepair.h"
 #include "Scene/Core/PointNormals.h"
+#include "Scene/Core/SceneLimits.h"
 #include "Scene/Core/ScenePlacement.h"
 
 namespace lambert {
 
 namespace {
+
+void CheckEmission(const TriangleMesh& mesh, const std::vector<Material>& materials) {
+  for (size_t face = 0; face < mesh.triangles.size(); ++face) {
+    const Spectrum& e = mesh.emittance[face];
+    if (e.IsFinite() && std::min({e.r, e.g, e.b}) >= 0) continue;
+    throw Error("The material '" + materials[size_t(mesh.materialId[face])].name +
+                "' has an emission that is negative or not a finite number; repair the file or set another.");
+  }
+}
 
 void CheckAssembly(SceneAssembly* assembly, const CleaningOptions& options) {
   if (!(options.featureAngle >= 0 && options.featureAngle <= 180)) {
@@ -43,7 +53,9 @@ void CheckAssembly(SceneAssembly* assembly, const CleaningOptions& options) {
                     ", which the scene does not have.");
       }
     }
+    CheckEmission(mesh, assembly->materials);
   }
+  RequireSolvableLights(assembly->lights);
 }
 
 /// All steps of one mesh, in object space.

@@ -6,6 +6,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
+#include "Scene/Core/SceneLimits.h"
 #include "Visibility/Core/SolutionLookup.h"
 
 namespace lambert {
@@ -314,8 +315,8 @@ void CheckInput(const std::vector<ProbePoint>& points, const IrradianceProbeOpti
   }
   for (size_t i = 0; i < points.size(); ++i) {
     const std::string row = "Probe row " + std::to_string(i + 1);
-    if (!IsFinite(points[i].position)) {
-      throw Error(row + " has a coordinate that is not a finite number.");
+    if (!IsWithinReach(points[i].position)) {
+      throw Error(row + " has a coordinate that is not a finite number or beyond 1e15 m.");
     }
     if (!IsFinite(points[i].normal) || !(LengthSquared(Vec3d(points[i].normal)) > 0)) {
       throw Error(row +

@@ -193,6 +193,17 @@ for file in bad:
     assert reader.GetOutput().GetNumberOfCells() == 0, file
     assert reader.GetReportJson() == ""
 
+# A length of no sense is an error, too.
+for length in (-1.0, float("nan"), float("inf")):
+    heard = []
+    reader = lambert.vtkRadiositySceneReader()
+    reader.AddObserver(vtkCommand.ErrorEvent, lambda caller, event: heard.append(event))
+    reader.GetExecutive().AddObserver(vtkCommand.ErrorEvent, lambda caller, event: None)
+    reader.SetFileName(room)
+    reader.SetMetresPerUnit(length)
+    reader.Update()
+    assert len(heard) == 1 and reader.GetOutput().GetNumberOfCells() == 0, length
+
 # Every Set has its Get, and gives back what it was given.
 reader = lambert.vtkRadiositySceneReader()
 defaults = {"Weld": True, "RemoveZeroArea": True, "RemoveRepeated": True, "Orient": True, "FixEmitters": True,

@@ -5,6 +5,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
+#include "Scene/Core/SceneLimits.h"
 #include "Scene/Testing/Unit/SmallMeshes.h"
 
 namespace lambert {
@@ -383,6 +384,46 @@ TEST(SceneCleaning, RefusesWhatIsNotAScene) {
   CleaningOptions options;
   options.featureAngle = 200;
   EXPECT_THROW(AssembleScene(MakeAssembly(MakeSquare()), options), Error);
+}
+
+TEST(SceneCleaning, RefusesLightThatIsNone) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const float wrong : {-1.f, nan, std::numeric_limits<float>::infinity()}) {
+    SceneAssembly assembly = MakeAssembly(MakeSquare());
+    assembly.meshes[0].emittance.assign(assembly.meshes[0].triangles.size(), {1, wrong, 1});
+    EXPECT_THROW(AssembleScene(assembly), Error);
+    assembly = MakeAssembly(MakeSquare());
+    assembly.lights.emplace_back().intensity = {1, wrong, 1};
+    EXPECT_THROW(AssembleScene(assembly), Error);
+  }
+  // Beyond what rays may reach, or without direction.
+  SceneAssembly assembly = MakeAssembly(MakeSquare());
+  assembly.lights.emplace_back().position = {0, 1e30f, 0};
+  EXPECT_THROW(AssembleScene(assembly), Error);
+  assembly.lights.back() = {};
+  assembly.lights.back().direction = {};
+  EXPECT_NO_THROW(AssembleScene(assembly));  // A point light needs none.
+  assembly.lights.back().type = LightType::Spot;
+  EXPECT_THROW(AssembleScene(assembly), Error);
+}
+
+TEST(SceneCleaning, RefusesSizesWhoseAreasFloatsCannotHold) {
+  // The unit square's diagonal is 1.41: both sides of either limit.
+  for (const auto& [scale, solvable] : {std::pair(1e-15, false),
+                                        {5e-7, false},
+                                        {1e-6, true},
+                                        {5e8, true},
+                                        {1e9, false},
+                                        {1e20, false}}) {
+    SceneAssembly assembly = MakeAssembly(MakeSquare());
+    for (const size_t i : {0, 5, 10}) assembly.parts[0].objectToWorld[i] = scale;
+    const Scene scene = AssembleScene(assembly);
+    if (solvable) {
+      EXPECT_NO_THROW(RequireSolvableSize(scene.mesh)) << scale;
+    } else {
+      EXPECT_THROW(RequireSolvableSize(scene.mesh), Error) << scale;
+    }
+  }
 }
 
 TEST(SceneCleaning, WarnsOfSizesThatLookLikeAWrongUnit) {

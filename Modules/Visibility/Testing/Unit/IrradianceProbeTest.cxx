@@ -168,7 +168,10 @@ TEST(IrradianceProbe, NamesTheRowOfABadProbe) {
       EXPECT_NE(std::string(error.what()).find("row 2"), std::string::npos) << error.what();
     }
   }
-  EXPECT_THROW(ReadIrradianceProbes(scene, rays, solution, {{{nan, 0, 0}, {0, 0, 1}}}), Error);
+  for (const float bad : {nan, 1e16f, -1e30f}) {  // Embree aborts beyond 1e18.
+    EXPECT_THROW(ReadIrradianceProbes(scene, rays, solution, {{{bad, 0, 0}, {0, 0, 1}}}), Error);
+  }
+  EXPECT_EQ(ReadAt(scene, solution, {1e15f, 0, 0}, {0, 0, 1}).kind, ProbeKind::Space);
   // Tiny and huge normals have a direction.
   EXPECT_EQ(ReadAt(scene, solution, {0.5f, 0.5f, 0}, {0, 0, 1e-30f}).kind, ProbeKind::Surface);
   EXPECT_EQ(ReadAt(scene, solution, {0.5f, 0.5f, 0}, {0, 0, 1e30f}).kind, ProbeKind::Surface);

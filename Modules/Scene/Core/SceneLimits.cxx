@@ -1,0 +1,43 @@
+#include "Scene/Core/SceneLimits.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include "Common/Core/Error.h"
+
+namespace lambert {
+
+void RequireSolvableSize(const TriangleMesh& mesh) {
+  if (mesh.positions.empty()) return;
+  const Box3f bounds = mesh.Bounds();
+  const double diagonal = Length(Vec3d(bounds.high) - Vec3d(bounds.low));
+  if (diagonal == 0 || (diagonal >= kSmallestScene && diagonal <= kLargestScene)) return;
+  char text[160];
+  std::snprintf(
+      text, sizeof text,
+      "The scene measures %g m across; light is computed from %g m to %g m: check the length unit.",
+      diagonal, kSmallestScene, kLargestScene);
+  throw Error(text);
+}
+
+void RequireSolvableLights(const std::vector<Light>& lights) {
+  for (const Light& light : lights) {
+    const std::string name = "The light \"" + light.name + "\"";
+    const Spectrum& intensity = light.intensity;
+    if (!intensity.IsFinite() || std::min({intensity.r, intensity.g, intensity.b}) < 0) {
+      throw Error(name +
+                  " has an intensity that is negative or not a finite number; repair the input.");
+    }
+    if (!IsWithinReach(light.position)) {
+      throw Error(
+          name + " lies too far away or nowhere; repair the input or make it a directional light.");
+    }
+    const bool isAimed = light.type == LightType::Spot || light.type == LightType::Directional;
+    if (isAimed && !(IsFinite(light.direction) && LengthSquared(Vec3d(light.direction)) > 0)) {
+      throw Error(name + " shines in no direction; repair the input.");
+    }
+  }
+}
+
+}  // namespace lambert

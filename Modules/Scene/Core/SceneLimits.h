@@ -1,0 +1,32 @@
+// What a scene may hold for its light to be computed. Beyond it areas and powers leave the range of
+// floats and rays that of the ray tracer, and the light would be dark or not a number without a
+// word.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "Common/Core/TriangleMesh.h"
+#include "Scene/Core/Light.h"
+
+namespace lambert {
+
+/// Diagonal of a scene, m.
+constexpr double kSmallestScene = 1e-6, kLargestScene = 1e9;
+/// Largest coordinate of a light or probe, m: well within what rays may have and squares of floats
+/// hold.
+constexpr float kFarthest = 1e15f;
+
+inline bool IsWithinReach(const Vec3f& point) {
+  return std::abs(point.x) <= kFarthest && std::abs(point.y) <= kFarthest &&
+         std::abs(point.z) <= kFarthest;
+}
+
+/// Throws Error where the diagonal of `mesh` is beyond the limits. A mesh without extent passes.
+void RequireSolvableSize(const TriangleMesh& mesh);
+
+/// Throws Error for a light whose intensity is negative or not finite, that lies out of reach or
+/// that shines in no direction.
+void RequireSolvableLights(const std::vector<Light>& lights);
+
+}  // namespace lambert
