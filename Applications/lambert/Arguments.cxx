@@ -176,8 +176,11 @@ void SolveArguments::AddTo(CLI::App* command) {
                                                     {"plain", ProgressStyle::Plain},
                                                     {"none", ProgressStyle::None}};
   command
-      ->add_option("--progress", progress, "auto: a bar on a terminal, lines in a log; plain; none")
-      ->transform(CLI::CheckedTransformer(styles).description("{auto,plain,none}"));
+      ->add_option_function<std::string>(
+          "--progress", [this, styles](const std::string& name) { progress = styles.at(name); },
+          "auto: a bar on a terminal, lines in a log; plain; none")
+      ->check(CLI::IsMember({"auto", "plain", "none"}))
+      ->default_str("auto");
 }
 
 void SolveArguments::Check() const {

@@ -24,6 +24,18 @@ class ErrorListener : public vtkCommand {
   bool Heard = false;
 };
 
+/// VTK tells its listeners of errors only while warnings are displayed.
+class WarningsOn {
+ public:
+  WarningsOn() { vtkObject::GlobalWarningDisplayOn(); }
+  ~WarningsOn() { vtkObject::SetGlobalWarningDisplay(this->Before); }
+  WarningsOn(const WarningsOn&) = delete;
+  WarningsOn& operator=(const WarningsOn&) = delete;
+
+ private:
+  int Before = vtkObject::GetGlobalWarningDisplay();
+};
+
 bool IsVtp(const std::string& file) {
   return vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(file)) ==
          ".vtp";
@@ -33,6 +45,7 @@ vtkSmartPointer<vtkPolyData> ReadVtp(const std::string& file) {
   if (!vtksys::SystemTools::TestFileAccess(file, vtksys::TEST_FILE_READ | vtksys::TEST_FILE_OK)) {
     throw Error("The file '" + file + "' cannot be opened.");
   }
+  const WarningsOn warnings;
   vtkNew<ErrorListener> listener;
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetReaderErrorObserver(listener);

@@ -21,6 +21,7 @@ fails(2, "solve", CORNELL_BOX, "-o", out, "--size", "100", says=["--size"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--camera", "1,2,3", says=["--camera"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--probe", "points.csv", says=["--probe-output"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--no-such-option")
+fails(2, "solve", CORNELL_BOX, "-o", out, "--progress", "0", says=["{auto,plain,none}"])
 for option in ("--error", "--time", "--feature-angle", "--exposure"):
     for number in ("nan", "inf"):
         fails(2, "solve", CORNELL_BOX, "-o", out, option, number, says=[option, number])
@@ -43,6 +44,22 @@ fails(1, "solve", os.path.join(bad, "nolight.obj"), "-o", out, "--progress", "no
 fails(1, "solve", CORNELL_BOX, "-o", out, "--progress", "none", "--set", "NoSuchMaterial:two-sided",
       says=["NoSuchMaterial"])
 fails(1, "info", "missing.obj", says=["missing.obj"])
+fails(1, "info", "/dev/null", says=["/dev/null"])
+fails(1, "solve", CORNELL_BOX, "-o", out, "--progress", "none", "--set", "Lamp:emission=3e38", says=["Lamp", "emission"])
+
+# Sizes whose areas single precision cannot hold.
+for size in ("1e-12", "1e20"):
+    far = temporary("size.obj")
+    with open(far, "w") as file:
+        file.write(f"v 0 0 0\nv {size} 0 0\nv 0 {size} 0\nf 1 2 3\n")
+    fails(1, "solve", far, "-o", out, "--progress", "none", "--sky", "1", "1", "1", says=["length unit"])
+
+# A solution that was cut off.
+cut = temporary("cut.vtp")
+assert run("solve", CORNELL_BOX, "-o", cut, "--iterations", "1", "--progress", "none").returncode == 0
+with open(cut, "r+b") as file:
+    file.truncate(os.path.getsize(cut) // 2)
+fails(1, "info", cut, says=[cut, "damaged"])
 
 # Outputs that cannot be written are refused before the scene is even read.
 for option, ending in (("-o", "vtp"), ("--report", "json"), ("--image", "png")):
@@ -69,6 +86,7 @@ probes, readings = temporary("probes.csv"), temporary("readings.csv")
 for text, says in (("a,b\n", ["header"]),
                    ("x,y,z,nx,ny,nz\n0,0,0,0,1,0\n0,0,0,0,0,0\n", ["Line 3", "zero normal"]),
                    ("x,y,z,nx,ny,nz\n0,0,nan,0,1,0\n", ["Line 2", "nan"]),
+                   ("x,y,z,nx,ny,nz\n0,0,1e30,0,1,0\n", ["Line 2", "beyond"]),
                    ("x,y,z,nx,ny,nz\n0,0,0,0,1\n", ["Line 2", "5 fields"])):
     with open(probes, "w") as file:
         file.write(text)

@@ -118,7 +118,7 @@ void ApplyMaterialSetting(const std::string& setting, SceneAssembly* assembly) {
     }
     if (!found) {
       throw Error("No material is named \"" + std::string(material) +
-                  "\"; the report lists the materials.");
+                  "\"; lambert info lists the materials.");
     }
   }
 }
