@@ -161,7 +161,8 @@ void RadiosityRun::Solve(const ProgressCallback& progress, const std::function<b
   timer.Restart();
   this->solution_ = solver.Solution();
   this->statistics_ = solver.Statistics();
-  if (!stoppedBy.empty()) {
+  // A request met, or a floor reached, in the last iteration that fitted counts before the clock.
+  if (!stoppedBy.empty() && this->statistics_.stoppedBy == "interrupt") {
     this->statistics_.stoppedBy = stoppedBy;
   }
   this->AddStage("reconstruct", timer.Seconds());

@@ -32,6 +32,15 @@ energy = whole["energy_w"]
 for emitted, absorbed, escaped in zip(energy["emitted"], energy["absorbed"], energy["escaped"]):
     assert emitted > 0 and abs(absorbed + escaped - emitted) < 0.05 * emitted, energy
 
+# A request that is met ends the run, even where the clock would have let no further iteration begin. The solver says "error"
+# from nine tenths of the request on.
+for share in (1.2, 1.5, 2.0, 3.0):
+    timed = solve(CORNELL_BOX, "-o", out, "--error", "0.2", "--time", share * whole["seconds"]["total"])
+    error = timed["history"][-1]["error"]
+    assert timed["stopped_by"] in ("error", "floor", "time"), timed["stopped_by"]
+    if error is not None and error <= 0.9 * 0.2:
+        assert timed["stopped_by"] == "error", (share, timed["stopped_by"], error)
+
 # A coarser run is cheaper; the files below are of two iterations.
 report = solve(CORNELL_BOX, "-o", out, "--error", "0.3", "--iterations", "2")
 assert report["links"]["total"] < whole["links"]["total"]
