@@ -77,6 +77,7 @@ class FileReader {
   void WalkNodes();
   void AddParts(const aiNode& node, const Matrix4& toWorld);
   int32_t MeshRow(unsigned index);
+  void WarnOfUnknown(const std::string& material) const;
   size_t MaterialOf(const aiMesh& mesh) const;
   void CheckAnnounced(const aiMesh& mesh) const;
   void ReadLightsAndCamera();
@@ -174,7 +175,9 @@ void FileReader::DescribeMaterials() {
   const bool isObj = extension_ == "obj", hasNone = extension_ == "ply" || extension_ == "stl";
   for (SurfaceMaterial& material : materials_) {
     if (gltf_) break;
-    const MtlScan& mtl = obj_.materials[material.name];
+    static const MtlScan none;
+    const auto found = obj_.materials.find(material.name);
+    const MtlScan& mtl = found != obj_.materials.end() ? found->second : none;
     if (mtl.dissolve) material.opacity = *mtl.dissolve;
 
     // Nothing is wholly transparent: exporters to other formats confuse opacity and transparency.
@@ -241,7 +244,10 @@ int32_t FileReader::MeshRow(unsigned index) {
   CheckAnnounced(source);
   const size_t material = MaterialOf(source);
   int32_t& row = materialRows_[material];
-  if (row < 0) row = AppendMaterial(materials_[material], path_, context_);
+  if (row < 0) {
+    WarnOfUnknown(materials_[material].name);
+    row = AppendMaterial(materials_[material], path_, context_);
+  }
 
   // STL stores the normals of facets, which say nothing of a point.
   const bool keepNormals = extension_ != "stl";
@@ -250,6 +256,14 @@ int32_t FileReader::MeshRow(unsigned index) {
   if (mesh.triangles.empty()) return meshRows_[index] = -1;
   context_.assembly.meshes.push_back(std::move(mesh));
   return meshRows_[index] = int32_t(context_.assembly.meshes.size()) - 1;
+}
+
+/// An OBJ may name a material that no library of it describes.
+void FileReader::WarnOfUnknown(const std::string& material) const {
+  const bool hasLibrary = !obj_.materials.empty() && obj_.missingMtl.empty();
+  if (!hasLibrary || material == AI_DEFAULT_MATERIAL_NAME || obj_.materials.count(material)) return;
+  context_.Warn("The material \"" + material + "\" of \"" + path_ +
+                "\" is in no material library; it reflects the default.");
 }
 
 /// Row of the file's materials. The importer orders those of a glTF by their first use: their names

@@ -231,6 +231,17 @@ TEST_F(SceneReaderTest, MissingMaterialLibraryIsAWarning) {
   ExpectNear(Named(scene, "red").reflectance, Spectrum(0.5f));
 }
 
+TEST_F(SceneReaderTest, MaterialOfNoLibraryIsAWarning) {
+  Write("m.mtl", "newmtl red\nKd 0.1 0 0\n");
+  const std::string file =
+      Write("s.obj", std::string("mtllib m.mtl\n") + kTriangle +
+                         "usemtl red\nf 1 2 3\nusemtl lamp\nf 3 2 1\nusemtl unused\n");
+  const SceneAssembly scene = ReadScene({file});
+  ASSERT_EQ(scene.report.warnings.size(), 1u);
+  EXPECT_NE(scene.report.warnings[0].find("\"lamp\""), std::string::npos);
+  ExpectNear(Named(scene, "lamp").reflectance, Spectrum(0.5f));
+}
+
 TEST_F(SceneReaderTest, TextureIsTheMeanOverEachTriangle) {
   // 2 x 1 texels: left red 255, right code 128 in all bands; as a binary PPM.
   Write("t.ppm", std::string("P6\n2 1\n255\n") +
