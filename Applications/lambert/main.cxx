@@ -1,9 +1,13 @@
 // lambert: solves scenes from the command line. Exit 0 done, 1 failed, 2 wrong usage.
+#include <vtkLogger.h>
 #include <vtkObject.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <new>
+#include <string>
 
 #include "BenchArguments.h"
 #include "Commands.h"
@@ -13,8 +17,11 @@ namespace {
 
 constexpr int kFailed = 1, kWrongUsage = 2;
 
-int Complain(const char* sentence, int exitCode) {
-  std::fprintf(stderr, "lambert: %s\n", sentence);
+/// What it quotes from a file may hold anything; it stays on one line.
+int Complain(std::string sentence, int exitCode) {
+  std::replace_if(
+      sentence.begin(), sentence.end(), [](unsigned char c) { return std::iscntrl(c); }, ' ');
+  std::fprintf(stderr, "lambert: %s\n", sentence.c_str());
   return exitCode;
 }
 
@@ -46,6 +53,7 @@ int main(int argc, char** argv) {
 
   // Whatever fails says so in one sentence of ours.
   vtkObject::GlobalWarningDisplayOff();
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   try {
     if (*benchCommand) return lambert::Bench(bench);
     return *infoCommand ? lambert::Info(info) : lambert::Solve(solve);

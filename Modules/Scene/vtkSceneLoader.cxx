@@ -6,12 +6,18 @@
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
 #include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkOutputWindow.h"
 #include "vtkPolyData.h"
 #include "vtkRadiosityArrays.h"
 #include "vtkSceneAdapter.h"
 #include "vtkXMLPolyDataReader.h"
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <set>
 #include <vtksys/SystemTools.hxx>
 
 namespace lambert {
@@ -24,17 +30,57 @@ class ErrorListener : public vtkCommand {
   bool Heard = false;
 };
 
-/// VTK tells its listeners of errors only while warnings are displayed.
-class WarningsOn {
+/// Hears what the objects that a reader makes for itself would print.
+class ErrorWindow : public vtkOutputWindow {
  public:
-  WarningsOn() { vtkObject::GlobalWarningDisplayOn(); }
-  ~WarningsOn() { vtkObject::SetGlobalWarningDisplay(this->Before); }
-  WarningsOn(const WarningsOn&) = delete;
-  WarningsOn& operator=(const WarningsOn&) = delete;
+  static ErrorWindow* New() { VTK_STANDARD_NEW_BODY(ErrorWindow); }
+  void DisplayErrorText(const char*) override { this->Heard = true; }
+  void DisplayText(const char*) override {}
+  bool Heard = false;
+};
+
+/// While it lives, VTK tells of its errors: it does so only while warnings are displayed.
+class ErrorsTold {
+ public:
+  explicit ErrorsTold(vtkOutputWindow* window) {
+    vtkObject::GlobalWarningDisplayOn();
+    vtkOutputWindow::SetInstance(window);
+  }
+  ~ErrorsTold() {
+    vtkOutputWindow::SetInstance(this->WindowBefore);
+    vtkObject::SetGlobalWarningDisplay(this->DisplayBefore);
+  }
+  ErrorsTold(const ErrorsTold&) = delete;
+  ErrorsTold& operator=(const ErrorsTold&) = delete;
 
  private:
-  int Before = vtkObject::GetGlobalWarningDisplay();
+  vtkSmartPointer<vtkOutputWindow> WindowBefore = vtkOutputWindow::GetInstance();
+  int DisplayBefore = vtkObject::GetGlobalWarningDisplay();
 };
+
+/// VTK's reader crashes on arrays of a type that it does not know.
+bool HasKnownTypes(const std::string& file) {
+  static const std::set<std::string> known{"Int8",    "Int16",   "Int32",  "Int64",
+                                           "UInt8",   "UInt16",  "UInt32", "UInt64",
+                                           "Float32", "Float64", "String", "Bit"};
+  std::ifstream stream(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  text.erase(std::min(text.size(), text.find("<AppendedData")));
+  for (const std::string element : {"<DataArray", "<Array"}) {
+    for (size_t at = 0; (at = text.find(element, at)) != std::string::npos; at += element.size()) {
+      const std::string tag = text.substr(at, text.find('>', at) - at);
+      const size_t type = tag.find(" type=");
+      if (type == std::string::npos || type + 8 > tag.size()) {
+        return false;
+      }
+      const size_t begin = type + 7;  // Behind the quotation mark, of either kind.
+      if (known.count(tag.substr(begin, tag.find(tag[begin - 1], begin) - begin)) == 0) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
 
 bool IsVtp(const std::string& file) {
   return vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(file)) ==
@@ -45,7 +91,8 @@ vtkSmartPointer<vtkPolyData> ReadVtp(const std::string& file) {
   if (!vtksys::SystemTools::TestFileAccess(file, vtksys::TEST_FILE_READ | vtksys::TEST_FILE_OK)) {
     throw Error("The file '" + file + "' cannot be opened.");
   }
-  const WarningsOn warnings;
+  vtkNew<ErrorWindow> window;
+  const ErrorsTold told(window);
   vtkNew<ErrorListener> listener;
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetReaderErrorObserver(listener);
@@ -53,11 +100,11 @@ vtkSmartPointer<vtkPolyData> ReadVtp(const std::string& file) {
   reader->AddObserver(vtkCommand::ErrorEvent, listener);
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listener);
   reader->SetFileName(file.c_str());
-  const bool readable = reader->CanReadFile(file.c_str()) != 0;
+  const bool readable = reader->CanReadFile(file.c_str()) != 0 && HasKnownTypes(file);
   if (readable) {
     reader->Update();
   }
-  if (!readable || listener->Heard || reader->GetErrorCode() != 0) {
+  if (!readable || listener->Heard || window->Heard || reader->GetErrorCode() != 0) {
     throw Error("The file '" + file + "' is not a VTP file or is damaged.");
   }
   if (reader->GetOutput()->GetNumberOfPolys() + reader->GetOutput()->GetNumberOfStrips() == 0) {

@@ -47,6 +47,13 @@ fails(1, "info", "missing.obj", says=["missing.obj"])
 fails(1, "info", "/dev/null", says=["/dev/null"])
 fails(1, "solve", CORNELL_BOX, "-o", out, "--progress", "none", "--set", "Lamp:emission=3e38", says=["Lamp", "emission"])
 
+# What is quoted from a file stays on one line, whatever it holds.
+binary = temporary("binary.obj")
+for word in (b"1\v2", b"\x1b[31m", b"1\x002"):
+    with open(binary, "wb") as file:
+        file.write(b"v 0 0 " + word + b"\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    fails(1, "info", binary, says=["is not a finite number in line 1"])
+
 # Sizes whose areas single precision cannot hold.
 for size in ("1e-12", "1e20"):
     far = temporary("size.obj")
@@ -60,6 +67,15 @@ assert run("solve", CORNELL_BOX, "-o", cut, "--iterations", "1", "--progress", "
 with open(cut, "r+b") as file:
     file.truncate(os.path.getsize(cut) // 2)
 fails(1, "info", cut, says=[cut, "damaged"])
+
+# Damage that VTK would print of, or crash at.
+for wrong in (("Float32", "Float3e"), ('NumberOfComponents="3"', 'NumberOfComponents="2"')):
+    assert run("solve", CORNELL_BOX, "-o", cut, "--iterations", "1", "--progress", "none").returncode == 0
+    with open(cut, "rb") as file:
+        whole = file.read()
+    with open(cut, "wb") as file:
+        file.write(whole.replace(wrong[0].encode(), wrong[1].encode()))
+    fails(1, "info", cut)
 
 # Outputs that cannot be written are refused before the scene is even read.
 for option, ending in (("-o", "vtp"), ("--report", "json"), ("--image", "png")):

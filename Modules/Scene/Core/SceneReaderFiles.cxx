@@ -63,7 +63,8 @@ bool CheckVertexLine(std::string_view line, const std::string& path, int64_t num
   for (std::string_view word = NextWord(&line); !word.empty(); word = NextWord(&line)) {
     if (word.front() == '#' || word == "\\") break;
     if (!IsFiniteNumber(word)) {
-      throw Error("\"" + std::string(word) + "\" is not a finite number" + where);
+      const std::string quoted(word.substr(0, word.find('\0')));  // A zero would end the sentence.
+      throw Error("\"" + quoted + "\" is not a finite number" + where);
     }
     dotted |= word.front() == '.';
     ++count;

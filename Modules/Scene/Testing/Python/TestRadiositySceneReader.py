@@ -180,8 +180,11 @@ with open(path, "rb") as file:
     whole = file.read()
 with open(os.path.join(folder, "cut.vtp"), "wb") as file:
     file.write(whole[:len(whole) // 2])
+with open(save(bare, "ascii.vtp", vtkXMLPolyDataWriter.Ascii)) as file:
+    text = file.read()
+write("type.vtp", text.replace('type="Float32"', 'type="Float3"'))
 bad = [os.path.join(folder, "missing.obj"), os.path.join(folder, "missing.vtp"), os.path.join(folder, "cut.vtp"),
-       write("garbage.vtp", "no xml"), write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")]
+       os.path.join(folder, "type.vtp"), write("garbage.vtp", "no xml"), write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")]
 for file in bad:
     heard = []
     reader = lambert.vtkRadiositySceneReader()
