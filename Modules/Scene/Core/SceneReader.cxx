@@ -21,13 +21,20 @@ namespace lambert {
 
 namespace {
 
-/// Gives the importer the prepared bytes for the scene's own file, and the disk for all others.
+/// Gives the importer the prepared bytes for the scene's own file and the libraries of an OBJ, and
+/// the disk for all others.
 class PreparedFile : public Assimp::DefaultIOSystem {
  public:
   PreparedFile(std::string path, const std::string& bytes)
       : path_(std::move(path)), bytes_(bytes) {}
 
   Assimp::IOStream* Open(const char* path, const char* mode) override {
+    if (path != path_ && FileExtension(path_) == "obj" && Exists(path)) {
+      const std::string text = MtlText(path);
+      auto* const bytes = new uint8_t[text.size()];
+      std::copy(text.begin(), text.end(), bytes);
+      return new Assimp::MemoryIOStream(bytes, text.size(), true);
+    }
     if (path != path_) return DefaultIOSystem::Open(path, mode);
     return new Assimp::MemoryIOStream(reinterpret_cast<const uint8_t*>(bytes_.data()),
                                       bytes_.size());

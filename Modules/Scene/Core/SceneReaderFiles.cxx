@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string_view>
 
 #include "Common/Core/Error.h"
@@ -17,6 +18,8 @@ namespace lambert {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
@@ -82,8 +85,8 @@ void AppendUndotted(std::string_view line, std::string* text) {
 
 /// Scans the library; false where it is not there.
 bool ScanMtl(const fs::path& path, std::map<std::string, MtlScan>* materials) {
-  std::ifstream stream(path);
-  if (!stream) return false;
+  if (!std::ifstream(path)) return false;
+  std::istringstream stream(MtlText(path.string()));
   std::string line, name;
   while (std::getline(stream, line)) {
     std::string_view rest(line);
@@ -208,9 +211,22 @@ std::string LoadFile(const std::string& path) {
   return bytes;
 }
 
+std::string MtlText(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  for (std::string_view rest(text); !rest.empty();) {
+    std::string_view line = NextLine(&rest);
+    if (line.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
+      line.remove_prefix(kByteOrderMark.size());
+    }
+    const char* const begin = line.data();
+    if (NextWord(&line) == "newmtl") return text.substr(size_t(begin - text.data()));
+  }
+  return {};
+}
+
 ObjScan ScanObj(const std::string& path, std::string text) {
   // What would hide lines from the importer: a byte order mark, line ends of old Macs.
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
   std::string_view rest(text);
   if (rest.substr(0, kByteOrderMark.size()) == kByteOrderMark) {

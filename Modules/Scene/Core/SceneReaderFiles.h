@@ -27,6 +27,9 @@ struct ObjScan {
   std::map<std::string, MtlScan> materials;  ///< by name
 };
 
+/// A material library from its first material on: the importer crashes on a texture before that.
+std::string MtlText(const std::string& path);
+
 /// Checks every number of the vertices. Throws Error, with the line, where one is missing or not
 /// finite.
 ObjScan ScanObj(const std::string& path, std::string text);

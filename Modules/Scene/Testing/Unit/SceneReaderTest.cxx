@@ -231,6 +231,19 @@ TEST_F(SceneReaderTest, MissingMaterialLibraryIsAWarning) {
   ExpectNear(Named(scene, "red").reflectance, Spectrum(0.5f));
 }
 
+TEST_F(SceneReaderTest, TexturesBeforeTheFirstMaterialAreNobodys) {
+  // The importer would crash at them; a byte order mark hides the first material from it.
+  for (const char* before : {"map_Kd gone.png\n", "\xEF\xBB\xBF", "Kd 1 1 1\nmap_d gone.png\n"}) {
+    Write("m.mtl", std::string(before) + "newmtl red\nKd 0.1 0 0\nmap_Kd no.png\n");
+    const SceneAssembly scene = ReadScene(
+        {Write("s.obj", std::string("mtllib m.mtl\n") + kTriangle + "usemtl red\nf 1 2 3\n")});
+    ExpectNear(Named(scene, "red").reflectance, {0.1f, 0, 0});
+    EXPECT_EQ(scene.report.texturesMissing, 1) << before;
+  }
+  Write("m.mtl", "map_Kd gone.png\n");
+  EXPECT_EQ(ReadScene({(folder_ / "s.obj").string()}).report.texturesMissing, 0);
+}
+
 TEST_F(SceneReaderTest, MaterialOfNoLibraryIsAWarning) {
   Write("m.mtl", "newmtl red\nKd 0.1 0 0\n");
   const std::string file =
