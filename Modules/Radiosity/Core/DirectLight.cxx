@@ -14,7 +14,7 @@ namespace {
 /// A group of emitters farther away than this many of its radii is taken as one.
 constexpr float kSmallBeyond = 12;
 /// A face nearer than this many of its radii is sampled by solid angle, else by area.
-constexpr float kLargeWithin = 4;
+constexpr float kLargeWithin = 2;
 /// Where a place on a face lies below the horizon, that many others are tried.
 constexpr int kMorePlaces = 8;
 /// Light of which more than this part comes from groups scatters without being blocked.
@@ -235,8 +235,8 @@ bool DirectLight::PlaceOn(const Emitter& emitter, const GatherPoint& at, float u
 }
 
 // Rays dealt out by weight, systematically: each brings an equal part of it.
-Spectrum DirectLight::Sample(const GatherPoint& at, const Source* sources, int count, float total,
-                             int rays, uint64_t seed, int* clear) const {
+Spectrum DirectLight::CastRays(const GatherPoint& at, const Source* sources, int count, float total,
+                               int rays, uint64_t seed, int* clear) const {
   Random random(seed);
   const float start = random.Uniform(), shift = random.Uniform();
   const float part = total / float(rays);
@@ -279,33 +279,27 @@ Spectrum DirectLight::Sample(const GatherPoint& at, const Source* sources, int c
   return sum;
 }
 
-Spectrum DirectLight::FromEmitters(const GatherPoint& at, const DirectLightOptions& options,
-                                   uint64_t seed, int64_t* rays) const {
-  if (emitters_.empty()) return {};
+DirectSample DirectLight::FromEmitters(const GatherPoint& at, int rays, uint64_t seed,
+                                       int64_t* cast) const {
+  DirectSample sample;
+  if (emitters_.empty()) return sample;
   std::array<Source, kMostSources> sources;
   sources[0] = this->Weigh(0, at);
-  const int count = options.rays < kRaysToOpen ? 1 : this->Sources(at, sources.data());
-  float total = 0;
-  for (int s = 0; s < count; ++s) total += sources[size_t(s)].weight;
-  if (!(total > 0)) return {};
-
-  // A few rays; more where they disagree, and where groups are not known exactly.
-  int clear = 0;
-  const int few = options.rays, more = options.penumbraRays;
-  Spectrum light = this->Sample(at, sources.data(), count, total, few, HashBits(seed, 1), &clear);
-  *rays += few;
-  float grouped = 0;
+  const int count = rays < kRaysToOpen ? 1 : this->Sources(at, sources.data());
+  float total = 0, grouped = 0;
   for (int s = 0; s < count; ++s) {
     const Source& source = sources[size_t(s)];
+    total += source.weight;
     if (nodes_[size_t(source.node)].second >= 0) grouped += source.weight;
   }
-  if (more > 0 && clear > 0 && (clear < few || grouped > kMostGrouped * total)) {
-    const Spectrum rest =
-        this->Sample(at, sources.data(), count, total, more, HashBits(seed, 2), &clear);
-    *rays += more;
-    light = (light * float(few) + rest * float(more)) / float(few + more);
-  }
-  return light;
+  if (!(total > 0)) return sample;
+  int clear = 0;
+  sample.irradiance =
+      this->CastRays(at, sources.data(), count, total, rays, HashBits(seed, 1), &clear);
+  sample.clear = float(clear) / float(rays);
+  sample.isScattered = grouped > kMostGrouped * total;
+  *cast += rays;
+  return sample;
 }
 
 Spectrum DirectLight::FromLight(const GatherPoint& at, const Light& light, int64_t* rays) const {
@@ -326,11 +320,30 @@ Spectrum DirectLight::FromLight(const GatherPoint& at, const Light& light, int64
   return light.intensity * (Dot(at.normal, direction) * attenuation);
 }
 
-Spectrum DirectLight::At(const GatherPoint& at, const DirectLightOptions& options, uint64_t seed,
-                         int64_t* rays) const {
-  Spectrum sum = this->FromEmitters(at, options, seed, rays);
+Spectrum DirectLight::FromLights(const GatherPoint& at, int64_t* rays) const {
+  Spectrum sum;
   for (const Light& light : lights_) sum += this->FromLight(at, light, rays);
   return sum;
+}
+
+DirectSample DirectLight::Sample(const GatherPoint& at, int count, uint64_t seed,
+                                 int64_t* rays) const {
+  DirectSample sample = this->FromEmitters(at, count, seed, rays);
+  sample.irradiance += this->FromLights(at, rays);
+  return sample;
+}
+
+// A few rays; more where they disagree, and where groups are not known exactly.
+Spectrum DirectLight::At(const GatherPoint& at, const DirectLightOptions& options, uint64_t seed,
+                         int64_t* rays) const {
+  const int few = options.rays, more = options.penumbraRays;
+  const DirectSample first = this->FromEmitters(at, few, seed, rays);
+  Spectrum light = first.irradiance;
+  if (more > 0 && first.clear > 0 && (first.clear < 1 || first.isScattered)) {
+    const DirectSample rest = this->FromEmitters(at, more, HashBits(seed, 2), rays);
+    light = (light * float(few) + rest.irradiance * float(more)) / float(few + more);
+  }
+  return light + this->FromLights(at, rays);
 }
 
 }  // namespace lambert

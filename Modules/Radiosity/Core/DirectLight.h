@@ -26,6 +26,14 @@ struct DirectLightOptions {
                           ///< [0, inf)
 };
 
+/// What a number of rays found.
+struct DirectSample {
+  Spectrum irradiance;  ///< W/m2
+  float clear = 1;      ///< part of the rays that nothing was in the way of
+  bool isScattered =
+      false;  ///< much of it comes from groups of emitters, of which rays picked some
+};
+
 /// All emitting faces and the lights without geometry but the sky, over a tree of the faces: from a
 /// point, groups of faces that look small are taken as one.
 class DirectLight {
@@ -37,6 +45,8 @@ class DirectLight {
   /// rays cast to `rays`.
   Spectrum At(const GatherPoint& at, const DirectLightOptions& options, uint64_t seed,
               int64_t* rays) const;
+  /// The same with `count` rays to all emitting faces together, whatever they find.
+  DirectSample Sample(const GatherPoint& at, int count, uint64_t seed, int64_t* rays) const;
 
  private:
   /// One side of an emitting face.
@@ -72,10 +82,10 @@ class DirectLight {
   Source PickFace(const Source& source, const GatherPoint& at, float* u, float* chance) const;
   bool PlaceOn(const Emitter& emitter, const GatherPoint& at, float u, float v, Vec3f* target,
                float* value) const;
-  Spectrum Sample(const GatherPoint& at, const Source* sources, int count, float total, int rays,
-                  uint64_t seed, int* clear) const;
-  Spectrum FromEmitters(const GatherPoint& at, const DirectLightOptions& options, uint64_t seed,
-                        int64_t* rays) const;
+  Spectrum CastRays(const GatherPoint& at, const Source* sources, int count, float total, int rays,
+                    uint64_t seed, int* clear) const;
+  DirectSample FromEmitters(const GatherPoint& at, int rays, uint64_t seed, int64_t* cast) const;
+  Spectrum FromLights(const GatherPoint& at, int64_t* rays) const;
   Spectrum FromLight(const GatherPoint& at, const Light& light, int64_t* rays) const;
 
   const RayScene& rayScene_;

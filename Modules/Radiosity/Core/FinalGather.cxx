@@ -14,20 +14,21 @@ namespace lambert {
 
 namespace {
 
-/// Points whose rays go out together, stratum by stratum.
-constexpr int kBatch = 32;
-constexpr int64_t kBatchesAtOnce = 256;
+/// Rays that go out together, those of similar directions one after the other; the points of a
+/// batch.
+constexpr int kRaysOfBatch = 256, kPointsOfBatch = 32;
+constexpr int kDirectionCells = 8;  ///< across the square that the hemisphere is drawn from
+constexpr int64_t kBatchesAtOnce = 1024;
 /// A leaf nearer than this many of its radii is not taken as one.
-constexpr float kNear = 1;
-/// Points that stand for large areas get up to this many times the rays.
-constexpr double kMostOfRays = 16;
-/// Light beyond this many times the mean of a batch is rare; points whose normals make a larger
-/// cosine than the other look the same way.
-constexpr float kRare = 8, kAlike = 0.9f;
+constexpr float kNear = 0.5f;
 /// A place on a leaf is at most this many times as bright as the leaf.
 constexpr float kMostOfLeaf = 16;
+/// A facet that turns within a leaf receives up to this many times what its nearest sample does.
+constexpr float kMostTurned = 2;
+/// Normals whose cosine is larger than this look the same way.
+constexpr float kSameWay = 0.8f;
 /// Bounces between near surfaces that are followed before a leaf is taken as one all the same.
-constexpr int kMostBounces = 8;
+constexpr int kMostBounces = 2;
 /// A leaf gathers with at least and at most these multiples of the rays of one of mean area.
 constexpr double kLeastRaysOfLeaf = 0.5, kMostRaysOfLeaf = 64;
 constexpr DirectLightOptions kDirectAtLeaves{4, 8};
@@ -38,6 +39,14 @@ constexpr double kLeastLost = 0.01, kMostBalance = 2;
 constexpr float kLeastKnown = 1e-3f;
 
 }  // namespace
+
+/// Band by band.
+static Spectrum Larger(const Spectrum& a, const Spectrum& b) {
+  return {std::max(a.r, b.r), std::max(a.g, b.g), std::max(a.b, b.b)};
+}
+static Spectrum Smaller(const Spectrum& a, const Spectrum& b) {
+  return {std::min(a.r, b.r), std::min(a.g, b.g), std::min(a.b, b.b)};
+}
 
 FinalGather::FinalGather(const ElementHierarchy& hierarchy, const RayScene& rayScene,
                          ElementLight* light)
@@ -54,6 +63,8 @@ FinalGather::FinalGather(const ElementHierarchy& hierarchy, const RayScene& rayS
   for (std::vector<int32_t>& element : elementOfFace_) element.assign(faces, -1);
   polygonIrradiance_.resize(size_t(hierarchy.Size()));
   cuts_.resize(size_t(hierarchy.Size()));
+  sampleIrradiance_.resize(size_t(hierarchy.Size()));
+  hasGathered_.resize(size_t(hierarchy.Size()), 0);
   for (int32_t index = 0; index < hierarchy.Size(); ++index) {
     const Element& element = hierarchy[index];
     if (element.IsPolygon()) {
@@ -98,22 +109,26 @@ int32_t FinalGather::LeafAt(int64_t face, Side side, const Vec3f& position) cons
 }
 
 // What arrives at the samples of a leaf, in the mean.
-GatheredLight FinalGather::GatherAtLeaf(int32_t leaf, int rays, uint64_t seed,
-                                        int64_t* cast) const {
+FinalGather::LeafLight FinalGather::GatherAtLeaf(int32_t leaf, int rays, uint64_t seed,
+                                                 int64_t* cast) const {
   GatherPoint points[kSamplesPerElement];
-  GatheredLight gathered[kSamplesPerElement], mean;
+  BounceSum sums[kSamplesPerElement];
   for (size_t k = 0; k < kSamplesPerElement; ++k) {
     const SurfaceSample& sample = hierarchy_[leaf].samples[k];
     points[k] = {sample.position, sample.normal, sample.normal};
   }
-  FinalGatherOptions options;
-  options.rays = std::max(1, (rays + kSamplesPerElement / 2) / kSamplesPerElement);
-  options.direct = kDirectAtLeaves;
-  options.seed = seed;
-  this->GatherBatch(points, 0, kSamplesPerElement, options, gathered, cast);
-  for (const GatheredLight& g : gathered) {
-    mean.irradiance += g.irradiance / float(kSamplesPerElement);
-    mean.reflected += g.reflected / float(kSamplesPerElement);
+  BounceRays bounce;
+  bounce.count = 1;
+  while (bounce.count * kSamplesPerElement < rays) bounce.count *= 2;
+  bounce.seed = seed;
+  this->GatherBatch(points, kSamplesPerElement, bounce, sums, cast);
+  LeafLight mean;
+  for (size_t k = 0; k < kSamplesPerElement; ++k) {
+    const Spectrum direct = direct_.At(points[k], kDirectAtLeaves, HashBits(seed, k), cast);
+    mean.atSample[k] = sums[k].Mean() + direct;
+    mean.reflectedAtSample[k] = sums[k].fromLeaves / float(bounce.count);
+    mean.irradiance += mean.atSample[k] / float(kSamplesPerElement);
+    mean.reflected += mean.reflectedAtSample[k] / float(kSamplesPerElement);
   }
   return mean;
 }
@@ -121,14 +136,14 @@ GatheredLight FinalGather::GatherAtLeaf(int32_t leaf, int rays, uint64_t seed,
 // What the leaves reflected before, R, may be too much or too little as a whole. With D from the
 // sources and I from the leaves, the factor f for which f R is what they reflect of D + f I.
 Spectrum FinalGather::BalancingFactor(const std::vector<int32_t>& leaves,
-                                      const std::vector<GatheredLight>& gathered) const {
+                                      const std::vector<LeafLight>& gathered) const {
   double before[3] = {}, fromSources[3] = {}, fromLeaves[3] = {};
   for (size_t i = 0; i < leaves.size(); ++i) {
     const Element& e = hierarchy_[leaves[i]];
     const Spectrum had = ElementIrradiance(e, light_->irradiance[size_t(leaves[i])]);
     for (int band = 0; band < 3; ++band) {
       const double weight = double(e.area) * double(e.reflectance[band]);
-      const GatheredLight& g = gathered[i];
+      const LeafLight& g = gathered[i];
       before[band] += weight * double(had[band]);
       fromLeaves[band] += weight * double(g.reflected[band]);
       fromSources[band] += weight * double(g.irradiance[band] - g.reflected[band]);
@@ -170,6 +185,33 @@ void FinalGather::Receive(int32_t leaf, const Spectrum& irradiance) {
   polygonIrradiance_[size_t(leaf)] = irradiance;
 }
 
+Spectrum FinalGather::Furnace() const {
+  const Scene& scene = hierarchy_.GetScene();
+  for (const Light& light : scene.lights) {
+    if (light.type != LightType::Sky) return Spectrum(std::numeric_limits<float>::infinity());
+  }
+  Spectrum emittance = sky_, reflectance;
+  for (const Spectrum& e : scene.mesh.emittance) emittance = Larger(emittance, e);
+  for (const Spectrum& r : scene.mesh.reflectance) reflectance = Larger(reflectance, r);
+  Spectrum furnace;
+  for (int band = 0; band < 3; ++band) furnace[band] = emittance[band] / (1 - reflectance[band]);
+  return furnace;
+}
+
+Spectrum FinalGather::Brightest() const {
+  const Spectrum furnace = this->Furnace();
+  if (!furnace.IsFinite()) return furnace;
+  Spectrum brightest = sky_;
+  for (const Spectrum& e : hierarchy_.GetScene().mesh.emittance) brightest = Larger(brightest, e);
+  for (int32_t leaf = 0; leaf < hierarchy_.Size(); ++leaf) {
+    if (!hasGathered_[size_t(leaf)]) continue;
+    for (const Spectrum& e : sampleIrradiance_[size_t(leaf)]) {
+      brightest = Larger(brightest, hierarchy_[leaf].emittance + hierarchy_[leaf].reflectance * e);
+    }
+  }
+  return brightest;
+}
+
 void FinalGather::GatherAtLeaves(int rays, uint64_t seed, int64_t* cast) {
   // The leaves that reflect, and their mean area.
   std::vector<int32_t> leaves;
@@ -185,7 +227,7 @@ void FinalGather::GatherAtLeaves(int rays, uint64_t seed, int64_t* cast) {
   const double meanArea = area / double(leaves.size());
 
   // All gather from what all had before.
-  std::vector<GatheredLight> gathered(leaves.size());
+  std::vector<LeafLight> gathered(leaves.size());
   std::vector<int64_t> castBy(leaves.size(), 0);
   ParallelForEach(int64_t(leaves.size()), 16, [&](int64_t i) {
     const int32_t leaf = leaves[size_t(i)];
@@ -195,13 +237,54 @@ void FinalGather::GatherAtLeaves(int rays, uint64_t seed, int64_t* cast) {
                                              &castBy[size_t(i)]);
   });
 
-  // As a whole they reflect what they receive.
+  // As a whole they reflect what they receive; few rays may find more than there is.
   const Spectrum factor = this->BalancingFactor(leaves, gathered);
+  const Spectrum most = this->Furnace();
   for (size_t i = 0; i < leaves.size(); ++i) {
-    const GatheredLight& g = gathered[i];
-    this->Receive(leaves[i], g.irradiance - g.reflected + factor * g.reflected);
+    const LeafLight& g = gathered[i];
+    this->Receive(leaves[i], Smaller(most, g.irradiance - g.reflected + factor * g.reflected));
+    hasGathered_[size_t(leaves[i])] = 1;
+    for (size_t k = 0; k < kSamplesPerElement; ++k) {
+      const Spectrum& reflected = g.reflectedAtSample[k];
+      sampleIrradiance_[size_t(leaves[i])][k] =
+          Smaller(most, g.atSample[k] - reflected + factor * reflected);
+    }
     *cast += castBy[i];
   }
+}
+
+// How much more a facet of a leaf receives when it turns, by the leaf's irradiance vectors.
+float FinalGather::TurnedTo(int32_t leaf, const Vec3f& from, const Vec3f& to) const {
+  const Element& element = hierarchy_[leaf];
+  if (element.IsPolygon()) return 1;
+  const VectorIrradiance& vectors = light_->irradiance[size_t(leaf)];
+  const VectorIrradiance light = element.TurnsToAllSides() ? vectors.FromAllAround() : vectors;
+  const float before = light.At(from).Mean(), after = light.At(to).Mean();
+  return before > 0 ? std::min(kMostTurned, after / before) : 1;
+}
+
+// That of the leaf's nearest sample that looks the same way; before it has gathered what links
+// brought it.
+Spectrum FinalGather::IrradianceOfLeaf(int32_t leaf, const Vec3f& place,
+                                       const Vec3f& normal) const {
+  const Element& element = hierarchy_[leaf];
+  if (hasGathered_[size_t(leaf)]) {
+    int nearest = -1;
+    float least = std::numeric_limits<float>::max();
+    for (int k = 0; k < kSamplesPerElement; ++k) {
+      const SurfaceSample& sample = element.samples[size_t(k)];
+      const float distance = LengthSquared(sample.position - place);
+      if (distance >= least || Dot(sample.normal, normal) < kSameWay) continue;
+      nearest = k;
+      least = distance;
+    }
+    if (nearest >= 0)
+      return sampleIrradiance_[size_t(leaf)][size_t(nearest)] *
+             this->TurnedTo(leaf, element.samples[size_t(nearest)].normal, normal);
+  }
+  if (element.IsPolygon()) return polygonIrradiance_[size_t(leaf)];
+  const VectorIrradiance& vectors = light_->irradiance[size_t(leaf)];
+  return (element.TurnsToAllSides() ? vectors.FromAllAround() : vectors).At(normal);
 }
 
 // Far away a leaf is as bright as it is in the mean. One nearer than its own size may be seen where
@@ -210,24 +293,19 @@ FinalGather::Radiosity FinalGather::Met(const Vec3f& from, const Vec3f& directio
                                         int bounces, int64_t* rays) const {
   ++*rays;
   const RayHit hit = rayScene_.Closest(from, direction);
-  if (hit.face < 0) return {sky_, {}};
+  if (hit.face < 0) return {sky_, {}, 0};
   const TriangleMesh& mesh = hierarchy_.GetScene().mesh;
   const Spectrum& reflectance = mesh.reflectance[size_t(hit.face)];
-  if (reflectance.IsBlack()) return {};
+  if (reflectance.IsBlack()) return {{}, {}, hit.distance};
   const Vec3f front = mesh.FrontNormal(hit.face);
   const Side side = Dot(front, direction) < 0 ? kFront : kBack;
   const Vec3f normal = side == kFront ? front : -front;
   const Vec3f place = from + direction * hit.distance;
   const int32_t leaf = this->LeafAt(hit.face, side, place);
-  if (leaf < 0) return {};
+  if (leaf < 0) return {{}, {}, hit.distance};
   const Element& element = hierarchy_[leaf];
-  const VectorIrradiance& vectors = light_->irradiance[size_t(leaf)];
-  const Spectrum ofLeaf =
-      reflectance *
-      (element.IsPolygon()
-           ? polygonIrradiance_[size_t(leaf)]
-           : (element.TurnsToAllSides() ? vectors.FromAllAround() : vectors).At(normal));
-  if (bounces == 0 || hit.distance >= kNear * element.radius) return {{}, ofLeaf};
+  const Spectrum ofLeaf = reflectance * this->IrradianceOfLeaf(leaf, place, normal);
+  if (bounces == 0 || hit.distance >= kNear * element.radius) return {{}, ofLeaf, hit.distance};
 
   // One direction stands for all of them: what it finds is taken up to some times the mean.
   const GatherPoint at{place, normal, normal};
@@ -237,7 +315,8 @@ FinalGather::Radiosity FinalGather::Met(const Vec3f& from, const Vec3f& directio
   const Spectrum direct = direct_.At(at, {1, 0}, random->Bits(), rays);
   const Radiosity next =
       this->Met(place, u * d.x + v * d.y + normal * d.z, random, bounces - 1, rays);
-  Radiosity found{reflectance * (direct + next.fromSources), reflectance * next.fromLeaves};
+  Radiosity found{reflectance * (direct + next.fromSources), reflectance * next.fromLeaves,
+                  hit.distance};
   const float brightness = (found.fromSources + found.fromLeaves).Mean();
   const float most = kMostOfLeaf * ofLeaf.Mean();
   if (brightness > most) {
@@ -247,112 +326,100 @@ FinalGather::Radiosity FinalGather::Met(const Vec3f& from, const Vec3f& directio
   return found;
 }
 
-// What a few rays of a batch found far above its mean is too rare to be told place by place: what
-// is beyond some times the mean goes to all points of the batch that look the same way, in equal
-// parts.
-static void ShareRareLight(const GatherPoint* points, int count, int strata,
-                           std::vector<FinalGather::Radiosity>* met) {
-  // What is rare.
-  float mean = 0;
-  for (const FinalGather::Radiosity& m : *met) {
-    mean += (m.fromSources + m.fromLeaves).Mean() / float(met->size());
+namespace {
+
+/// The first two dimensions of Sobol's sequence, its bits flipped by those of `scramble`: in every
+/// aligned block of 2^k numbers one in each box of area 2^-k.
+Vec2f SobolPoint(uint32_t index, uint64_t scramble) {
+  uint32_t x = 0, y = 0;
+  for (uint32_t bit = 1u << 31, direction = 1u << 31, i = index; i; i >>= 1) {
+    if (i & 1) x ^= bit, y ^= direction;
+    bit >>= 1;
+    direction ^= direction >> 1;
   }
-  const float most = kRare * mean;
+  x ^= uint32_t(scramble), y ^= uint32_t(scramble >> 32);
+  return {float(x >> 8) * 0x1p-24f, float(y >> 8) * 0x1p-24f};
+}
+
+}  // namespace
+
+// Each point has an aligned block of the sequence, so that neighbours fill the gaps between each
+// other's rays.
+void FinalGather::GatherBatch(const GatherPoint* points, int count, const BounceRays& rays,
+                              BounceSum* sums, int64_t* cast) const {
+  // Directions, sorted.
+  struct Ray {
+    Vec2f place;
+    int point;
+    uint32_t index;
+    int next;
+  };
+  std::array<Ray, kRaysOfBatch> batch;
+  std::array<Vec3f, kPointsOfBatch> u, v;
   for (int i = 0; i < count; ++i) {
-    // Who shares it.
-    int sharing = 0;
-    for (int j = 0; j < count; ++j) sharing += Dot(points[i].normal, points[j].normal) > kAlike;
-    if (sharing < 2) continue;
-    for (int stratum = 0; stratum < strata; ++stratum) {
-      FinalGather::Radiosity& own = (*met)[size_t(i * strata + stratum)];
-      const float brightness = (own.fromSources + own.fromLeaves).Mean();
-      if (!(brightness > most)) continue;
-      const float part = (1 - most / brightness) / float(sharing);
-      const FinalGather::Radiosity share{own.fromSources * part, own.fromLeaves * part};
-      own.fromSources *= most / brightness;
-      own.fromLeaves *= most / brightness;
-      for (int j = 0; j < count; ++j) {
-        if (!(Dot(points[i].normal, points[j].normal) > kAlike)) continue;
-        FinalGather::Radiosity& theirs = (*met)[size_t(j * strata + stratum)];
-        theirs.fromSources += share.fromSources;
-        theirs.fromLeaves += share.fromLeaves;
+    CoordinateSystem(points[i].normal, &u[size_t(i)], &v[size_t(i)]);
+    sums[i] = {};
+    sums[i].rays = rays.count;
+  }
+  const int all = count * rays.count;
+  for (int begin = 0; begin < all; begin += kRaysOfBatch) {
+    std::array<int, kDirectionCells * kDirectionCells> cells;
+    cells.fill(-1);
+    const int size = std::min(kRaysOfBatch, all - begin);
+    for (int r = size - 1; r >= 0; --r) {
+      Ray& ray = batch[size_t(r)];
+      ray.point = (begin + r) / rays.count;
+      ray.index = rays.first * uint32_t(rays.count) + uint32_t(begin + r);
+      ray.place = SobolPoint(ray.index, rays.seed);
+      const int row = int(ray.place.y * kDirectionCells),
+                column = int(ray.place.x * kDirectionCells);
+      int& cell =
+          cells[size_t(row * kDirectionCells + (row % 2 ? kDirectionCells - 1 - column : column))];
+      ray.next = cell;
+      cell = r;
+    }
+
+    // What they meet.
+    for (int r : cells) {
+      for (; r >= 0; r = batch[size_t(r)].next) {
+        const Ray& ray = batch[size_t(r)];
+        const GatherPoint& at = points[ray.point];
+        const Vec3f d = CosineHemisphere(ray.place.x, ray.place.y);
+        const Vec3f direction =
+            u[size_t(ray.point)] * d.x + v[size_t(ray.point)] * d.y + at.normal * d.z;
+        if (Dot(direction, at.geometricNormal) <= 0) continue;
+        Random random(HashBits(rays.seed, ray.index));
+        const Radiosity met = this->Met(at.position, direction, &random, kMostBounces, cast);
+        const Spectrum light = met.fromSources + met.fromLeaves;
+        BounceSum& sum = sums[ray.point];
+        sum.fromSources += met.fromSources;
+        sum.fromLeaves += met.fromLeaves;
+        sum.squares += light.r * light.r + light.g * light.g + light.b * light.b;
+        if (met.distance > 0) sum.nearness += 1 / met.distance;
       }
     }
   }
 }
 
-void FinalGather::GatherBatch(const GatherPoint* points, int64_t first, int count,
-                              const FinalGatherOptions& options, GatheredLight* light,
-                              int64_t* rays) const {
-  // One more bounce: a jittered ray in every stratum of the cosine-weighted hemisphere.
-  Vec3f u[kBatch], v[kBatch];
-  for (int i = 0; i < count; ++i) CoordinateSystem(points[i].normal, &u[i], &v[i]);
-  const int side = std::max(1, int(std::lround(std::sqrt(double(options.rays)))));
-  const int strata = side * side;
-  std::vector<Radiosity> met(size_t(count * strata));
-  for (int stratum = 0; stratum < strata; ++stratum) {
-    for (int i = 0; i < count; ++i) {
-      const uint64_t bits =
-          HashBits(HashBits(options.seed, uint64_t(first + i)), uint64_t(stratum) + 7);
-      const float a = (float(stratum / side) + float(bits >> 40) * 0x1p-24f) / float(side);
-      const float b = (float(stratum % side) + float(bits & 0xffffff) * 0x1p-24f) / float(side);
-      const Vec3f d = CosineHemisphere(a, b);
-      const Vec3f direction = u[i] * d.x + v[i] * d.y + points[i].normal * d.z;
-      if (Dot(direction, points[i].geometricNormal) <= 0) continue;
-      Random random(bits);
-      met[size_t(i * strata + stratum)] =
-          this->Met(points[i].position, direction, &random, kMostBounces, rays);
-    }
-  }
-  ShareRareLight(points, count, strata, &met);
-
-  // Their sum, and direct light. Two halves of the strata, like the fields of a chessboard, tell
-  // how far they scatter.
-  for (int i = 0; i < count; ++i) {
-    Spectrum halves[2];
-    light[i] = {};
-    for (int stratum = 0; stratum < strata; ++stratum) {
-      const Radiosity& m = met[size_t(i * strata + stratum)];
-      halves[(stratum / side + stratum % side) % 2] +=
-          (m.fromSources + m.fromLeaves) / float(strata);
-      light[i].reflected += m.fromLeaves / float(strata);
-    }
-    const Spectrum scatter = halves[0] - halves[1];
-    light[i].variance = scatter.r * scatter.r + scatter.g * scatter.g + scatter.b * scatter.b;
-    light[i].irradiance =
-        halves[0] + halves[1] +
-        direct_.At(points[i], options.direct, HashBits(options.seed, uint64_t(first + i)), rays);
-  }
-}
-
-std::vector<GatheredLight> FinalGather::At(const std::vector<GatherPoint>& points,
-                                           const FinalGatherOptions& options, int64_t* rays,
-                                           const ProgressCallback& progress) const {
-  std::vector<GatheredLight> light(points.size());
-  const int64_t batches = (int64_t(points.size()) + kBatch - 1) / kBatch;
-  std::vector<int64_t> cast(size_t(batches), 0);
-  double area = 0;
-  for (const GatherPoint& point : points) area += double(point.area) / double(points.size());
+std::vector<BounceSum> FinalGather::Bounces(const std::vector<GatherPoint>& points,
+                                            const BounceRays& rays, int64_t* cast,
+                                            const ProgressCallback& progress) const {
+  std::vector<BounceSum> sums(points.size());
+  const int64_t batches = (int64_t(points.size()) + kPointsOfBatch - 1) / kPointsOfBatch;
+  std::vector<int64_t> castBy(size_t(batches), 0);
   for (int64_t begin = 0; begin < batches; begin += kBatchesAtOnce) {
     if (!Report(progress, double(begin) / double(batches), "gathering")) throw Cancelled();
     ParallelForEach(std::min(kBatchesAtOnce, batches - begin), 1, [&](int64_t i) {
-      const int64_t first = (begin + i) * kBatch;
-      const int count = int(std::min<int64_t>(kBatch, int64_t(points.size()) - first));
-      FinalGatherOptions own = options;
-      if (area > 0) {
-        double mean = 0;
-        for (int p = 0; p < count; ++p) mean += double(points[size_t(first + p)].area) / count;
-        const double factor = std::min(kMostOfRays, std::max(1.0, mean / area));
-        own.rays = int(options.rays * factor);
-        own.direct.rays = int(options.direct.rays * factor);
-        own.direct.penumbraRays = int(options.direct.penumbraRays * factor);
-      }
-      this->GatherBatch(&points[size_t(first)], first, count, own, &light[size_t(first)],
-                        &cast[size_t(begin + i)]);
+      const int64_t first = (begin + i) * kPointsOfBatch;
+      const int count = int(std::min<int64_t>(kPointsOfBatch, int64_t(points.size()) - first));
+      BounceRays own = rays;
+      own.first += uint32_t(first);
+      this->GatherBatch(&points[size_t(first)], count, own, &sums[size_t(first)],
+                        &castBy[size_t(begin + i)]);
     });
   }
-  for (const int64_t c : cast) *rays += c;
-  return light;
+  for (const int64_t c : castBy) *cast += c;
+  return sums;
 }
 
 }  // namespace lambert

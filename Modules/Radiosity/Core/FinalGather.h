@@ -2,6 +2,7 @@
 // solution (thesis 4.5.5 and 6.4.1 name it as the costly way to display).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -15,52 +16,83 @@
 
 namespace lambert {
 
-struct FinalGatherOptions {
-  int rays = 64;  ///< over the hemisphere of a point, rounded to a square, [1, inf)
-  DirectLightOptions direct;
-  uint64_t seed = 1;
+/// Sums over rays that left a point, cosine-weighted over its hemisphere: one more bounce of light.
+struct BounceSum {
+  Spectrum fromSources, fromLeaves;  ///< radiosity of what they met; emitters apart, W/m2
+  float squares = 0;                 ///< |radiosity|^2, all bands
+  float nearness = 0;                ///< one over the distance of what they met, 1/m
+  int rays = 0;
+
+  BounceSum& operator+=(const BounceSum& b) {
+    fromSources += b.fromSources, fromLeaves += b.fromLeaves;
+    squares += b.squares, nearness += b.nearness, rays += b.rays;
+    return *this;
+  }
+  /// Irradiance, W/m2.
+  Spectrum Mean() const { return (fromSources + fromLeaves) / float(std::max(1, rays)); }
+  /// Variance of a ray, sum of the bands, (W/m2)^2.
+  float Variance() const {
+    const Spectrum mean = this->Mean();
+    const float square = mean.r * mean.r + mean.g * mean.g + mean.b * mean.b;
+    return std::max(0.f, squares - float(rays) * square) / float(std::max(1, rays - 1));
+  }
 };
 
-/// What a point gathered.
-struct GatheredLight {
-  Spectrum irradiance;  ///< W/m2
-  Spectrum reflected;   ///< part of it that leaves reflected; the rest came from sources, W/m2
-  float variance = 0;   ///< of it, sum of the bands, (W/m2)^2; from two halves of the rays
+/// Rays that leave many points, and the seed of their directions.
+struct BounceRays {
+  int count = 4;  ///< a point, a power of two
+  uint32_t first =
+      0;  ///< number of the first point: neighbours in number share their directions out
+  uint64_t seed = 1;
 };
 
 /// Gathers from the leaves of a solution.
 class FinalGather {
  public:
-  /// Radiosity of what a ray meets, emitters left out, W/m2; of the sky pi times its radiance.
-  struct Radiosity {
-    Spectrum fromSources, fromLeaves;
-  };
-
   /// All by reference; points see the light as it is at construction and as GatherAtLeaves leaves
   /// it.
   FinalGather(const ElementHierarchy& hierarchy, const RayScene& rayScene, ElementLight* light);
 
-  /// Irradiance at every point, W/m2. What point i receives depends on the options, the point and i
-  /// alone; neighbours in the list should be neighbours in space, so that their rays are. Adds the
-  /// rays cast to `rays`. Throws Cancelled.
-  std::vector<GatheredLight> At(const std::vector<GatherPoint>& points,
-                                const FinalGatherOptions& options, int64_t* rays,
-                                const ProgressCallback& progress = {}) const;
+  /// One bounce at every point: rays that together are spread evenly over hemisphere and points.
+  /// What a point receives depends on the point, its number and the seed alone; neighbours in the
+  /// list should be neighbours in space. Adds the rays cast to `cast`. Throws Cancelled.
+  std::vector<BounceSum> Bounces(const std::vector<GatherPoint>& points, const BounceRays& rays,
+                                 int64_t* cast, const ProgressCallback& progress = {}) const;
+  const DirectLight& Direct() const { return direct_; }
+  /// The radiosity of a furnace of the brightest emitter and the lightest surface of the scene, a
+  /// band at a time, W/m2: no place is brighter. Infinite where the scene has lights but a sky.
+  Spectrum Furnace() const;
+  /// The largest radiosity of all emitters, leaves and the sky, a band at a time, W/m2: what they
+  /// together give to a point is never more. Infinite as that of the furnace.
+  Spectrum Brightest() const;
 
   /// Replaces what the leaves received over links by what they gather, one bounce; `rays` over the
   /// hemisphere of a leaf of mean area, in proportion to area. Adds the rays cast to `cast`.
   void GatherAtLeaves(int rays, uint64_t seed, int64_t* cast);
 
  private:
+  /// Radiosity of what a ray meets, emitters left out, W/m2; of the sky pi times its radiance.
+  struct Radiosity {
+    Spectrum fromSources, fromLeaves;
+    float distance = 0;  ///< of what it meets, m; 0: nothing
+  };
   Radiosity Met(const Vec3f& from, const Vec3f& direction, Random* random, int bounces,
                 int64_t* rays) const;
   int32_t LeafAt(int64_t face, Side side, const Vec3f& position) const;
-  GatheredLight GatherAtLeaf(int32_t leaf, int rays, uint64_t seed, int64_t* cast) const;
+  /// What a leaf receives in the mean, W/m2.
+  struct LeafLight {
+    Spectrum irradiance;
+    Spectrum reflected;  ///< part of it that leaves reflected; the rest came from sources
+    std::array<Spectrum, kSamplesPerElement> atSample, reflectedAtSample;
+  };
+  LeafLight GatherAtLeaf(int32_t leaf, int rays, uint64_t seed, int64_t* cast) const;
   Spectrum BalancingFactor(const std::vector<int32_t>& leaves,
-                           const std::vector<GatheredLight>& gathered) const;
+                           const std::vector<LeafLight>& gathered) const;
+  float TurnedTo(int32_t leaf, const Vec3f& from, const Vec3f& to) const;
+  Spectrum IrradianceOfLeaf(int32_t leaf, const Vec3f& place, const Vec3f& normal) const;
   void Receive(int32_t leaf, const Spectrum& irradiance);
-  void GatherBatch(const GatherPoint* points, int64_t first, int count,
-                   const FinalGatherOptions& options, GatheredLight* light, int64_t* rays) const;
+  void GatherBatch(const GatherPoint* points, int count, const BounceRays& rays, BounceSum* sums,
+                   int64_t* cast) const;
 
   /// Where a polygon was cut: its first child lies where the plane is not negative.
   struct Cut {
@@ -78,7 +110,11 @@ class FinalGather {
       elementOfFace_;                        ///< by side: the element that holds the face,
                                              ///< a leaf or a triangle; -1 where none does
   std::vector<Spectrum> polygonIrradiance_;  ///< by element, of triangles and patches
-  std::vector<Cut> cuts_;  ///< by element, of triangles and patches that have children
+  /// By element, of leaves that have gathered: what their samples receive, W/m2. A part of a leaf
+  /// that is hidden is dark, and what sees the leaf sees the other.
+  std::vector<std::array<Spectrum, kSamplesPerElement>> sampleIrradiance_;
+  std::vector<uint8_t> hasGathered_;  ///< by element
+  std::vector<Cut> cuts_;             ///< by element, of triangles and patches that have children
 };
 
 }  // namespace lambert

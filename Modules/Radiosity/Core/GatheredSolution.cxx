@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <unordered_map>
 
@@ -28,13 +29,20 @@ constexpr float kFirstNonlinearity = 0.7f;
 constexpr float kLeastNonlinearity = 0.05f;
 /// Differences up to this many times the variance of a triangle's corners are taken for scatter.
 constexpr double kScatter = 3;
-/// Triangles of more than this part of the receiving area are asked in their middle too.
-constexpr double kProbedArea = 1.0 / 50000;
+/// Bounces that leaves gather before points do.
+constexpr uint64_t kLeafRounds = 4;
+/// Of the triangles of a size at least so many, and one to so many, are asked in their middle; all
+/// are where they hold more than this part of the squared error that is wanted.
+constexpr size_t kLeastProbes = 32, kProbedPart = 16;
+constexpr double kProbedError = 0.05;
+/// Tells the key of a triangle's middle from that of a point.
+constexpr uint64_t kMiddle = 0x6d6964646c65;
 /// A round cuts at most this part of the triangles.
 constexpr double kMostCut = 0.15;
-/// Light beyond this many times the mean counts as that much: a lamp's socket must not take all
-/// triangles.
-constexpr double kBlazing = 20;
+/// Cutting ends at so many times the triangles of the beginning, or at the other where that is
+/// more: light whose edges ask for still more of them is better left as it is.
+constexpr double kMostGrowth = 3;
+constexpr int64_t kMostTriangles = 300000;
 /// A triangle whose error is more than this many times the threshold is cut twice in a round.
 constexpr double kCutTwice = 4;
 
@@ -46,16 +54,19 @@ double SquaredNorm(const Spectrum& s) {
 class GatheredMesh {
  public:
   GatheredMesh(ElementHierarchy* hierarchy, const FinalGather& gather, float skip,
-               const std::vector<uint8_t>& litSides, const FinalGatherOptions& options)
+               const std::vector<uint8_t>& litSides, const GatheredPointsOptions& options)
       : hierarchy_(hierarchy),
-        gather_(gather),
+        gathered_(gather, options),
         skip_(skip),
-        options_(options),
-        mesh_(hierarchy, litSides) {}
+        mesh_(hierarchy, litSides),
+        firstTriangles_(int64_t(mesh_.Triangles().size())) {}
 
-  void GatherAtNewPoints(int64_t* rays, const ProgressCallback& progress);
+  void GatherAtPoints(int64_t* rays, const ProgressCallback& progress);
+  void Improve(double noise, int64_t* rays, const ProgressCallback& progress) {
+    gathered_.Improve(noise, rays, progress);
+  }
   void LearnNonlinearity();
-  void ProbeLargeTriangles(int64_t* rays);
+  void ProbeMiddles(double wanted, int64_t* rays);
   bool CutTriangles(double wanted);
   RadiositySolution Deliver() const { return mesh_.Deliver(irradiance_); }
 
@@ -67,64 +78,66 @@ class GatheredMesh {
     double difference = 0;  ///< largest squared difference between the corners of a triangle
   };
 
+  /// Of what receives: its area, m2, mean irradiance and mean square (W/m2, norm over bands).
+  struct LightScale {
+    double area = 0, mean = 0, meanSquare = 0;
+  };
+  LightScale MeasureLight() const;
+  double MeanLight(int64_t triangle) const;
+  void Probe(const std::vector<int64_t>& triangles, int64_t* rays);
   double Difference(int64_t triangle) const;
-  double Error(int64_t triangle) const;
+  double Error(int64_t triangle, const LightScale& scale) const;
   double Area(int64_t triangle) const;
   uint64_t Key(int64_t triangle) const;
   bool Receives(int64_t triangle) const;
   int32_t PatchOf(int64_t triangle);
-  bool IsAtFloor(int32_t patch) const;
+  bool IsAtFloor(int64_t triangle) const;
+  bool IsPatchAtFloor(int32_t patch) const;
 
   ElementHierarchy* hierarchy_;
-  const FinalGather& gather_;
+  GatheredPoints gathered_;
   const float skip_;  ///< length that rays skip, m
-  const FinalGatherOptions options_;
   RefinedMesh mesh_;
-  std::unordered_map<uint64_t, GatheredLight> known_;
-  std::vector<Spectrum> irradiance_;             ///< per point
-  std::vector<float> variance_;                  ///< per point, of the irradiance
-  std::unordered_map<uint64_t, double> probed_;  ///< by triangle: squared deviation in its middle
+  const int64_t firstTriangles_;
+  std::vector<Spectrum> irradiance_;  ///< per point
+  std::vector<float> variance_;       ///< per point, of the irradiance
+  /// What is found in the middle of a triangle: its squared deviation from what the corners
+  /// interpolate, and the norm of the irradiance, W/m2.
+  struct Middle {
+    double deviation = 0, light = 0;
+  };
+  std::unordered_map<uint64_t, Middle> probed_;  ///< by triangle
   std::vector<uint8_t> isNew_;                   ///< per point: gathered in this round
   std::vector<float> nonlinearity_;              ///< per patch
   std::vector<Before> before_;
   std::vector<int32_t> beforeOfPatch_;  ///< per patch: of the one it was cut from in this round; -1
 };
 
-void GatheredMesh::GatherAtNewPoints(int64_t* rays, const ProgressCallback& progress) {
-  // The points that no round before has seen.
+void GatheredMesh::GatherAtPoints(int64_t* rays, const ProgressCallback& progress) {
+  // The points, each a little within its largest triangle.
   const std::vector<RefinedMesh::Point>& points = mesh_.Points();
-  irradiance_.assign(points.size(), {});
-  variance_.assign(points.size(), 0);
-  isNew_.assign(points.size(), 0);
-  std::vector<float> areas(points.size(), 0);
-  for (size_t t = 0; t < mesh_.Triangles().size(); ++t) {
-    const float share = float(this->Area(int64_t(t))) / 3;
-    for (const int32_t p : mesh_.PointsOfTriangles()[t]) areas[size_t(p)] += share;
-  }
-  std::vector<GatherPoint> places;
-  std::vector<size_t> owners;
-  for (size_t p = 0; p < points.size(); ++p) {
-    const auto found = known_.find(points[p].key);
-    if (found != known_.end()) {
-      irradiance_[p] = found->second.irradiance;
-      variance_[p] = found->second.variance;
-      continue;
-    }
-    const RefinedMesh::Point& point = points[p];
+  std::vector<GatheredPoints::Point> places(points.size());
+  ParallelForEach(int64_t(points.size()), 1024, [&](int64_t p) {
+    const RefinedMesh::Point& point = points[size_t(p)];
     const Vec3f inward = point.inside - point.position;
     const float least = kInsetOverSkip * skip_ / std::max(Length(inward), 1e-30f);
-    places.push_back({point.position + inward * std::min(kMostInset, std::max(kInset, least)),
-                      point.normal, point.insideNormal, areas[p]});
-    owners.push_back(p);
-    isNew_[p] = 1;
+    const Vec3f place = point.position + inward * std::min(kMostInset, std::max(kInset, least));
+    places[size_t(p)] = {point.key, {place, point.normal, point.insideNormal, 0}};
+  });
+  for (size_t t = 0; t < mesh_.Triangles().size(); ++t) {
+    const float share = this->Receives(int64_t(t)) ? float(this->Area(int64_t(t))) / 3 : 0;
+    for (const int32_t p : mesh_.PointsOfTriangles()[t]) places[size_t(p)].at.area += share;
   }
 
   // Their light.
-  const auto gathered = gather_.At(places, options_, rays, progress);
-  for (size_t i = 0; i < owners.size(); ++i) {
-    irradiance_[owners[i]] = gathered[i].irradiance;
-    variance_[owners[i]] = gathered[i].variance;
-    known_[points[owners[i]].key] = gathered[i];
+  const std::vector<GatheredPoints::Light> lights = gathered_.At(places, rays, progress);
+  irradiance_.resize(points.size());
+  variance_.resize(points.size());
+  isNew_.resize(points.size());
+  for (size_t p = 0; p < points.size(); ++p) {
+    irradiance_[p] = lights[p].irradiance;
+    variance_[p] = lights[p].variance;
+    isNew_[p] = lights[p].isNew;
   }
 }
 
@@ -149,16 +162,23 @@ double GatheredMesh::Area(int64_t triangle) const {
                    Cross(points[size_t(p[1])].position - a, points[size_t(p[2])].position - a)));
 }
 
-// Squared error of interpolation times area: a jump of height h somewhere in a triangle leaves
-// about h^2 / 6 in the mean.
-double GatheredMesh::Error(int64_t triangle) const {
+// Squared relative error of interpolation times area: a jump of height h somewhere in a triangle
+// leaves about h^2 / 6 in the mean; or what its middle tells, if that is more.
+double GatheredMesh::Error(int64_t triangle, const LightScale& scale) const {
   const int32_t patch = mesh_.Triangles()[size_t(triangle)].patch;
   const double part = patch >= 0 && size_t(patch) < nonlinearity_.size()
                           ? double(nonlinearity_[size_t(patch)])
                           : double(kFirstNonlinearity);
-  const double known = part * part * this->Difference(triangle) / 6;
+  const double light = this->MeanLight(triangle);
+  double error = part * part * this->Difference(triangle) / 6 *
+                 ErrorWeight(light, scale.mean, scale.meanSquare);
   const auto probed = probed_.find(this->Key(triangle));
-  return this->Area(triangle) * std::max(known, probed == probed_.end() ? 0 : probed->second);
+  if (probed != probed_.end()) {
+    const double brightest = std::max(light, probed->second.light);
+    error = std::max(
+        error, probed->second.deviation * ErrorWeight(brightest, scale.mean, scale.meanSquare));
+  }
+  return this->Area(triangle) * error;
 }
 
 bool GatheredMesh::Receives(int64_t triangle) const {
@@ -174,18 +194,55 @@ uint64_t GatheredMesh::Key(int64_t triangle) const {
   return key;
 }
 
-// Large triangles may hold a shadow that none of their corners lies in: they are asked in their
-// middle.
-void GatheredMesh::ProbeLargeTriangles(int64_t* rays) {
-  const int64_t count = int64_t(mesh_.Triangles().size());
-  double area = 0;
-  for (int64_t t = 0; t < count; ++t) area += this->Receives(t) ? this->Area(t) : 0;
-  std::vector<GatherPoint> places;
-  std::vector<int64_t> owners;
-  for (int64_t t = 0; t < count; ++t) {
-    if (!this->Receives(t) || this->Area(t) < kProbedArea * area || probed_.count(this->Key(t))) {
-      continue;
+// A triangle may hold a light or a shadow that none of its corners lies in. Of every size some are
+// asked in their middle; where those tell of an error that counts, all of that size are.
+void GatheredMesh::ProbeMiddles(double wanted, int64_t* rays) {
+  // Triangles by size, an octave of area a class; those that were asked before stay as they are.
+  const LightScale scale = this->MeasureLight();
+  if (!(scale.mean > 0)) return;
+  std::map<int, std::vector<int64_t>> classes;
+  for (int64_t t = 0; t < int64_t(mesh_.Triangles().size()); ++t) {
+    if (!this->Receives(t) || !(this->Area(t) > 0) || probed_.count(this->Key(t))) continue;
+    classes[std::ilogb(this->Area(t))].push_back(t);
+  }
+
+  // A few of each.
+  std::vector<int64_t> few;
+  std::map<int, std::pair<size_t, size_t>> fewOfClass;
+  for (auto& [size, triangles] : classes) {
+    std::sort(triangles.begin(), triangles.end(), [&](int64_t a, int64_t b) {
+      const uint64_t hashA = HashBits(uint64_t(a)), hashB = HashBits(uint64_t(b));
+      return hashA < hashB;
+    });
+    const size_t count =
+        std::min(triangles.size(), std::max(kLeastProbes, triangles.size() / kProbedPart));
+    fewOfClass[size] = {few.size(), few.size() + count};
+    few.insert(few.end(), triangles.begin(), triangles.begin() + int64_t(count));
+  }
+  this->Probe(few, rays);
+
+  // All of the classes that have something to tell.
+  std::vector<int64_t> rest;
+  for (const auto& [size, triangles] : classes) {
+    const auto& [begin, end] = fewOfClass[size];
+    double error = 0;
+    for (size_t i = begin; i < end; ++i) {
+      const Middle& middle = probed_[this->Key(few[i])];
+      const double light = std::max(middle.light, this->MeanLight(few[i]));
+      error += this->Area(few[i]) / scale.area * middle.deviation *
+               ErrorWeight(light, scale.mean, scale.meanSquare);
     }
+    error *= double(triangles.size()) / double(end - begin);
+    if (error < kProbedError * wanted * wanted) continue;
+    rest.insert(rest.end(), triangles.begin() + int64_t(end - begin), triangles.end());
+  }
+  this->Probe(rest, rays);
+}
+
+// How far the light in the middle of triangles is from what their corners interpolate.
+void GatheredMesh::Probe(const std::vector<int64_t>& triangles, int64_t* rays) {
+  std::vector<GatheredPoints::Point> places;
+  for (const int64_t t : triangles) {
     GatherPoint place;
     for (const int32_t p : mesh_.PointsOfTriangles()[size_t(t)]) {
       const RefinedMesh::Point& point = mesh_.Points()[size_t(p)];
@@ -196,19 +253,20 @@ void GatheredMesh::ProbeLargeTriangles(int64_t* rays) {
     const Vec3f front = hierarchy_->GetScene().mesh.FrontNormal(leaf.face);
     place.normal = Normalize(place.normal);
     place.geometricNormal = leaf.side == kFront ? front : -front;
-    places.push_back(place);
-    owners.push_back(t);
+    place.area = float(this->Area(t));
+    places.push_back({HashBits(this->Key(t), kMiddle), place});
   }
-  const auto gathered = gather_.At(places, options_, rays);
-  for (size_t i = 0; i < owners.size(); ++i) {
+  const std::vector<GatheredPoints::Light> gathered = gathered_.At(places, rays);
+  for (size_t i = 0; i < triangles.size(); ++i) {
     Spectrum expected;
     double noise = double(gathered[i].variance);
-    for (const int32_t p : mesh_.PointsOfTriangles()[size_t(owners[i])]) {
+    for (const int32_t p : mesh_.PointsOfTriangles()[size_t(triangles[i])]) {
       expected += irradiance_[size_t(p)] / 3.f;
       noise += double(variance_[size_t(p)]) / 9;
     }
     const double deviation = SquaredNorm(gathered[i].irradiance - expected);
-    probed_[this->Key(owners[i])] = std::max(0.0, deviation - kScatter * noise);
+    probed_[this->Key(triangles[i])] = {std::max(0.0, deviation - kScatter * noise),
+                                        std::sqrt(SquaredNorm(gathered[i].irradiance))};
   }
 }
 
@@ -217,7 +275,16 @@ int32_t GatheredMesh::PatchOf(int64_t triangle) {
   return t.patch >= 0 ? t.patch : hierarchy_->Leaves().FacePatch(t.face, Side(t.side));
 }
 
-bool GatheredMesh::IsAtFloor(int32_t patch) const {
+// Nothing more is to be had from cutting it.
+bool GatheredMesh::IsAtFloor(int64_t triangle) const {
+  Box3f box;
+  for (const int32_t p : mesh_.PointsOfTriangles()[size_t(triangle)]) {
+    box.Include(mesh_.Points()[size_t(p)].position);
+  }
+  return box.Diagonal() < hierarchy_->Floor(mesh_.Triangles()[size_t(triangle)].face);
+}
+
+bool GatheredMesh::IsPatchAtFloor(int32_t patch) const {
   Box3f box;
   for (const Vec3f& corner : hierarchy_->Leaves().Corners(patch)) box.Include(corner);
   return box.Diagonal() < hierarchy_->Floor(hierarchy_->Leaves().PatchFace(patch));
@@ -268,40 +335,46 @@ void GatheredMesh::LearnNonlinearity() {
   }
 }
 
-// Cuts the triangles that hold the most of the error, until what is left is what may be left.
-bool GatheredMesh::CutTriangles(double wanted) {
-  // Area and light of what receives.
+double GatheredMesh::MeanLight(int64_t triangle) const {
+  double light = 0;
+  for (const int32_t p : mesh_.PointsOfTriangles()[size_t(triangle)]) {
+    light += std::sqrt(SquaredNorm(irradiance_[size_t(p)])) / 3;
+  }
+  return light;
+}
+
+// Of what receives; what blazes counts as a multiple of the mean.
+GatheredMesh::LightScale GatheredMesh::MeasureLight() const {
+  LightScale scale;
   const int64_t count = int64_t(mesh_.Triangles().size());
-  std::vector<double> areas(size_t(count), 0), lights(size_t(count), 0);
-  double area = 0, mean = 0;
   for (int64_t t = 0; t < count; ++t) {
     if (!this->Receives(t)) continue;
-    areas[size_t(t)] = this->Area(t);
-    for (const int32_t p : mesh_.PointsOfTriangles()[size_t(t)]) {
-      lights[size_t(t)] += std::sqrt(SquaredNorm(irradiance_[size_t(p)])) / 3;
-    }
-    area += areas[size_t(t)];
-    mean += areas[size_t(t)] * lights[size_t(t)];
+    scale.area += this->Area(t);
+    scale.mean += this->Area(t) * this->MeanLight(t);
   }
-  if (!(mean > 0)) return false;
-  mean /= area;
-
-  // Errors as fractions of the whole: of the mean square, where what blazes counts as a multiple of
-  // the mean, and of each place's own light.
-  double square = 0;
+  if (!(scale.mean > 0)) return {};
+  scale.mean /= scale.area;
   for (int64_t t = 0; t < count; ++t) {
-    const double light = std::min(lights[size_t(t)], kBlazing * mean);
-    square += areas[size_t(t)] * light * light;
+    if (!this->Receives(t)) continue;
+    const double light = std::min(this->MeanLight(t), kBlazing * scale.mean);
+    scale.meanSquare += this->Area(t) * light * light / scale.area;
   }
+  return scale;
+}
+
+// Cuts the triangles that hold the most of the error, until what is left is what may be left.
+bool GatheredMesh::CutTriangles(double wanted) {
+  // What errors are measured by.
+  const LightScale scale = this->MeasureLight();
+  if (!(scale.mean > 0)) return false;
+  const int64_t count = int64_t(mesh_.Triangles().size());
+  if (count > std::max(kMostTriangles, int64_t(kMostGrowth * double(firstTriangles_))))
+    return false;
   std::vector<double> errors(size_t(count), 0);
   double total = 0;
   for (int64_t t = 0; t < count; ++t) {
-    if (!(areas[size_t(t)] > 0)) continue;
-    const double light = lights[size_t(t)];
-    const double calm = std::min(1.0, kBlazing * mean / std::max(light, mean));
-    const double error = this->Error(t);
-    const double bound = std::max(light, mean);
-    errors[size_t(t)] = std::max(error * calm * calm / square, error / (bound * bound * area));
+    if (!this->Receives(t) || this->IsAtFloor(t)) continue;
+    errors[size_t(t)] = this->Error(t, scale) / scale.area;
     total += errors[size_t(t)];
   }
   const double allowed = wanted * wanted;
@@ -354,10 +427,10 @@ bool GatheredMesh::CutTriangles(double wanted) {
   std::vector<std::pair<int32_t, int32_t>> made;
   for (const int32_t patch : order) {
     const auto& [index, error] = chosen[patch];
-    if (this->IsAtFloor(patch)) continue;
+    if (this->IsPatchAtFloor(patch)) continue;
     for (const int32_t half : hierarchy_->Leaves().Split(patch)) {
       made.push_back({half, index});
-      if (error < kCutTwice * threshold || this->IsAtFloor(half)) continue;
+      if (error < kCutTwice * threshold || this->IsPatchAtFloor(half)) continue;
       for (const int32_t quarter : hierarchy_->Leaves().Split(half))
         made.push_back({quarter, index});
     }
@@ -375,15 +448,24 @@ struct GatheredSolution::Implementation {
   Implementation(ElementHierarchy* hierarchy, ElementLight* light, const RayScene& rayScene,
                  const std::vector<uint8_t>& litSides, const GatheredSolutionOptions& options,
                  int64_t* rays_)
-      : gather(*hierarchy, rayScene, light), rays(rays_) {
-    for (uint64_t round = 0; round < 2 && options.leafRays > 0; ++round) {
-      gather.GatherAtLeaves(options.leafRays, HashBits(options.gather.seed, round), rays);
+      : gather(*hierarchy, rayScene, light),
+        leafRays(options.leafRays),
+        seed(options.points.seed),
+        rays(rays_) {
+    // What links made of the light is forgotten over some bounces; the last decides how it
+    // scatters.
+    for (uint64_t round = 1; round <= kLeafRounds && leafRays > 0; ++round) {
+      gather.GatherAtLeaves(round == kLeafRounds ? leafRays : leafRays / 2, HashBits(seed, round),
+                            rays);
     }
-    mesh.reset(new GatheredMesh(hierarchy, gather, rayScene.Epsilon(), litSides, options.gather));
+    mesh.reset(new GatheredMesh(hierarchy, gather, rayScene.Epsilon(), litSides, options.points));
   }
 
   FinalGather gather;
   std::unique_ptr<GatheredMesh> mesh;
+  int leafRays;
+  const uint64_t seed;
+  uint64_t calls = 0;  ///< of Refine
   int64_t* rays;
 };
 
@@ -394,14 +476,21 @@ GatheredSolution::GatheredSolution(ElementHierarchy* hierarchy, ElementLight* li
 
 GatheredSolution::~GatheredSolution() = default;
 
-void GatheredSolution::Refine(double error, int rounds, const ProgressCallback& progress) {
+void GatheredSolution::Refine(double error, double noise, int rounds,
+                              const ProgressCallback& progress) {
   Implementation& self = *implementation_;
-  self.mesh->GatherAtNewPoints(self.rays, progress);
+  if (self.calls++ > 0) {
+    self.leafRays *= 2;
+    self.gather.GatherAtLeaves(self.leafRays, HashBits(self.seed, kLeafRounds + self.calls),
+                               self.rays);
+  }
+  self.mesh->Improve(noise, self.rays, progress);
+  self.mesh->GatherAtPoints(self.rays, progress);
   for (int round = 0; round < rounds; ++round) {
     self.mesh->LearnNonlinearity();
-    self.mesh->ProbeLargeTriangles(self.rays);
+    self.mesh->ProbeMiddles(error, self.rays);
     if (!self.mesh->CutTriangles(error)) break;
-    self.mesh->GatherAtNewPoints(self.rays, progress);
+    self.mesh->GatherAtPoints(self.rays, progress);
   }
 }
 

@@ -8,7 +8,7 @@
 
 #include "Common/Core/Progress.h"
 #include "Radiosity/Core/ElementHierarchy.h"
-#include "Radiosity/Core/FinalGather.h"
+#include "Radiosity/Core/GatheredPoints.h"
 #include "Radiosity/Core/LinkRefinement.h"
 #include "Scene/Core/RadiositySolution.h"
 #include "Visibility/Core/RayScene.h"
@@ -16,10 +16,10 @@
 namespace lambert {
 
 struct GatheredSolutionOptions {
-  /// Rays over the hemisphere of a leaf of mean area, in each of two rounds; 0: leaves keep what
+  /// Rays over the hemisphere of a leaf of mean area in the last of its rounds; 0: leaves keep what
   /// they had.
   int leafRays = 8;
-  FinalGatherOptions gather;
+  GatheredPointsOptions points;
 };
 
 /// Construct, Refine as often as wanted, Deliver.
@@ -32,10 +32,11 @@ class GatheredSolution {
                    int64_t* rays);
   ~GatheredSolution();
 
-  /// Gathers at the points, then cuts triangles and gathers at their points in up to `rounds`
-  /// rounds, until interpolation leaves about `error`, a relative RMS error, (0, 1]. Throws
+  /// Gathers at the points until rays scatter by about `noise`, then cuts triangles and gathers at
+  /// their points in up to `rounds` rounds, until interpolation leaves about `error`; both are
+  /// relative RMS errors, (0, 1]. Called again, leaves and points get more rays first. Throws
   /// Cancelled.
-  void Refine(double error, int rounds, const ProgressCallback& progress = {});
+  void Refine(double error, double noise, int rounds, const ProgressCallback& progress = {});
   RadiositySolution Deliver() const;
 
  private:

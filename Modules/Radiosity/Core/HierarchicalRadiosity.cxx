@@ -45,7 +45,7 @@ double FinalThreshold(double error) { return 1.6e-5 * std::pow(std::min(error, 0
 constexpr double kGatherShare = 0.6;
 /// Iterations of final gather before it is said that the error cannot be met, and what the error
 /// must fall to in one for another to be worth it.
-constexpr double kLeastGain = 0.95;
+constexpr double kLeastGain = 0.9;
 constexpr int kMostGathers = 4;
 /// An error counts as met a little below the request: the points that verify it are a sample.
 constexpr double kVerifiedBelow = 0.9;
@@ -58,16 +58,30 @@ constexpr double kTrialReserve = 2;
 /// Paths a point for verification.
 constexpr int kVerificationSamples = 256;
 
+/// Rays of every point over its hemisphere, times the error; what their scatter may leave, of the
+/// wanted error.
+constexpr double kFirstRays = 0.2, kNoiseShare = 0.7;
+/// No point casts more than so many times the rays of the first round: light that scatters still
+/// is found by rays that few points need.
+constexpr int kMostOfFirst = 32;
+
+/// Blotches are seen where the rest of a coarse solution is not: scatter is kept low there too.
+constexpr double kMostNoise = 0.08;
+double NoiseFor(double error) { return std::min(kMostNoise, kNoiseShare * error); }
+
 /// The final gather that usually gives a wanted relative error, measured (Documentation/Stages).
 GatheredSolutionOptions GatherFor(double error) {
   GatheredSolutionOptions options;
-  options.gather.rays = std::min(1024, std::max(16, int(2.5 / error)));
-  options.gather.direct.rays = std::min(64, std::max(8, int(0.8 / error)));
-  options.gather.direct.penumbraRays = std::min(256, std::max(8, int(1.2 / error)));
+  GatheredPointsOptions& points = options.points;
+  points.noise = NoiseFor(error);
+  while (points.firstRays < kFirstRays / error) points.firstRays *= 2;
+  points.mostRays = kMostOfFirst * points.firstRays;
+  points.directRays = std::min(64, std::max(8, int(0.8 / error)));
+  points.penumbraRays = std::min(256, std::max(8, int(1.2 / error)));
   return options;
 }
 /// What interpolation may leave at first, of the wanted error; and the rounds of cutting it takes.
-constexpr double kInterpolationShare = 0.8;
+constexpr double kInterpolationShare = 0.65;
 constexpr int kCuttingRounds = 5;
 
 /// Power of all sources, W, largest band: a first guess of what surfaces receive. Skies and suns
@@ -244,17 +258,19 @@ double HierarchicalRadiosity::Implementation::Exchange(double tolerance) {
 // By what a few points take that stand for all.
 double HierarchicalRadiosity::Implementation::PredictGatherSeconds() const {
   const TriangleMesh& mesh = scene.mesh;
-  std::vector<GatherPoint> points;
+  std::vector<GatheredPoints::Point> points;
   for (int64_t i = 0; i < kTrialPoints; ++i) {
     const int64_t face = mesh.FaceCount() * i / kTrialPoints;
     const Vec3f normal = mesh.FrontNormal(face);
     const Vec3f center = (mesh.Corner(face, 0) + mesh.Corner(face, 1) + mesh.Corner(face, 2)) / 3.f;
-    points.push_back({center, normal, normal});
+    points.push_back({uint64_t(i), {center, normal, normal}});
   }
   const Timer timer;
   ElementLight trial = light;
   int64_t rays = 0;
-  FinalGather(hierarchy, rayScene, &trial).At(points, GatherFor(options.error).gather, &rays);
+  const FinalGather gather(hierarchy, rayScene, &trial);
+  GatheredPoints trialPoints(gather, GatherFor(options.error).points);
+  trialPoints.At(points, &rays);
   const double all = double(mesh.PointCount()) + 2.0 * hierarchy.Leaves().PatchCount();
   return kTrialReserve * timer.Seconds() * all / kTrialPoints;
 }
@@ -296,7 +312,7 @@ void HierarchicalRadiosity::GatherUntilMet(int iteration, const ProgressCallback
   SolverStatistics& statistics = self.statistics;
   const double before = statistics.history.back().seconds;
   const Timer timer;
-  double aim = kInterpolationShare * self.options.error, lastError = 0;
+  double aim = self.options.error, lastError = 0;
   GatheredSolution solution(&self.hierarchy, &self.light, self.rayScene, self.litSides,
                             GatherFor(self.options.error), &self.network.rays);
   for (int gather = 1;; ++gather) {
@@ -307,7 +323,7 @@ void HierarchicalRadiosity::GatherUntilMet(int iteration, const ProgressCallback
       return Report(progress, 1 - kGatherShare * (1 - std::min(1.0, done)), stage);
     };
     try {
-      solution.Refine(aim, kCuttingRounds, part);
+      solution.Refine(kInterpolationShare * aim, NoiseFor(aim), kCuttingRounds, part);
       self.gathered = solution.Deliver();
     } catch (const Cancelled&) {
       statistics.stoppedBy = "interrupt";

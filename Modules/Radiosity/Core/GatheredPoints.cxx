@@ -1,0 +1,264 @@
+#include "Radiosity/Core/GatheredPoints.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "Common/Core/Error.h"
+#include "Common/Core/Parallel.h"
+#include "Common/Core/Random.h"
+
+namespace lambert {
+
+namespace {
+
+/// A point tells of places as far as this part of the harmonic mean distance of what it sees.
+constexpr float kReach = 0.5f;
+/// Rays to emitters that every point casts at first.
+constexpr int kFirstDirectRays = 4;
+/// Points that stand for more area than the mean get up to this many times the rays to emitters.
+constexpr double kMostByArea = 16;
+/// Rays to emitters that a point may be given at once, where it is asked for more.
+constexpr int kMostDirectRays = 256;
+/// Neighbours whose shadows tell of a point's own, and how far the parts of light that they see may
+/// differ.
+constexpr int kShadowNeighbours = 12;
+constexpr float kSameShadow = 0.05f;
+/// A point's scatter counts in this part by the area that it stands for, else as one of all points.
+constexpr double kByArea = 0.75;
+/// Rounds of more rays; in one a point gets up to this many times the rays it had.
+constexpr int kRounds = 3;
+constexpr int kMostGrowth = 16;
+/// Numbers of rays are powers of two; above this part of one they are rounded up to it.
+constexpr double kRoundUp = 0.7;
+
+double SquaredNorm(const Spectrum& s) {
+  return double(s.r) * s.r + double(s.g) * s.g + double(s.b) * s.b;
+}
+
+}  // namespace
+
+double ErrorWeight(double light, double mean, double meanSquare) {
+  const double calm = std::min(1.0, kBlazing * mean / std::max(light, mean));
+  const double bound = std::max(light, mean);
+  return std::max(calm * calm / meanSquare, 1 / (bound * bound));
+}
+
+std::vector<GatheredPoints::Light> GatheredPoints::At(const std::vector<Point>& points,
+                                                      int64_t* rays,
+                                                      const ProgressCallback& progress) {
+  // Which are new.
+  const int32_t first = int32_t(records_.size());
+  std::vector<int32_t> recordOfPoint(points.size());
+  for (size_t p = 0; p < points.size(); ++p) {
+    const auto [place, isNew] = recordOfKey_.try_emplace(points[p].key, int32_t(records_.size()));
+    recordOfPoint[p] = place->second;
+    if (isNew) records_.push_back({points[p].at, {}, 0, {}, {}});
+    records_[size_t(place->second)].at.area = points[p].at.area;
+  }
+
+  // Their light; then more rays where all of it still scatters.
+  if (first < int32_t(records_.size())) {
+    this->GatherNew(first, rays, progress);
+    const SampleNeighbours neighbours(samples_, first);
+    this->LookIntoPenumbrae(first, neighbours, rays);
+    this->GatherWhereItScatters(first, neighbours, rays, progress);
+  }
+  std::vector<Light> lights(points.size());
+  ParallelForEach(int64_t(points.size()), 1024, [&](int64_t p) {
+    const int32_t index = recordOfPoint[size_t(p)];
+    const Record& record = records_[size_t(index)];
+    lights[size_t(p)] = {record.direct.irradiance + record.bounced.irradiance,
+                         record.bounced.variance, index >= first};
+  });
+  return lights;
+}
+
+IrradianceSample GatheredPoints::SampleOf(const Record& record) const {
+  const BounceSum& b = record.bounces;
+  // What sees nothing at all sees the same everywhere.
+  const float reach = kReach * float(b.rays) / std::max(b.nearness, 1e-30f);
+  return {record.at.position, record.at.normal, b.Mean(), b.Variance(), float(b.rays), reach};
+}
+
+void GatheredPoints::GatherNew(int32_t first, int64_t* rays, const ProgressCallback& progress) {
+  std::vector<GatherPoint> places;
+  for (size_t i = size_t(first); i < records_.size(); ++i) places.push_back(records_[i].at);
+  BounceRays bounce;
+  bounce.count = options_.firstRays;
+  bounce.first = uint32_t(first);
+  bounce.seed = HashBits(options_.seed);
+  const std::vector<BounceSum> sums = gather_.Bounces(places, bounce, rays, progress);
+
+  std::vector<int64_t> cast(places.size(), 0);
+  ParallelForEach(int64_t(places.size()), 64, [&](int64_t i) {
+    Record& record = records_[size_t(first + i)];
+    record.bounces = sums[size_t(i)];
+    record.direct =
+        gather_.Direct().Sample(record.at, kFirstDirectRays,
+                                HashBits(options_.seed, uint64_t(first + i)), &cast[size_t(i)]);
+  });
+  for (const int64_t c : cast) *rays += c;
+  for (size_t i = size_t(first); i < records_.size(); ++i) {
+    samples_.push_back(this->SampleOf(records_[i]));
+  }
+}
+
+// Few rays are enough in full light and in full shadow, where all neighbours are there too.
+bool GatheredPoints::IsInPenumbra(int32_t index, const SampleNeighbours& neighbours) const {
+  const float own = records_[size_t(index)].direct.clear;
+  if (own > 0 && own < 1) return true;
+  const int32_t* begin = neighbours.begin(index);
+  const int32_t* end = std::min(neighbours.end(index), begin + kShadowNeighbours);
+  return std::any_of(begin, end, [&](int32_t other) {
+    return std::abs(records_[size_t(other)].direct.clear - own) > kSameShadow;
+  });
+}
+
+// Casts `more` rays for each record from `first` on, and joins what they find to what is known.
+void GatheredPoints::CastMoreToEmitters(const std::vector<int>& more, int32_t first,
+                                        int64_t* rays) {
+  std::vector<int64_t> cast(more.size(), 0);
+  ParallelForEach(int64_t(more.size()), 64, [&](int64_t i) {
+    if (more[size_t(i)] == 0) return;
+    Record& record = records_[size_t(first + i)];
+    const uint64_t seed =
+        HashBits(HashBits(options_.seed, uint64_t(first + i)), uint64_t(record.directRays));
+    const DirectSample rest =
+        gather_.Direct().Sample(record.at, more[size_t(i)], seed, &cast[size_t(i)]);
+    record.directRays += more[size_t(i)];
+    const float part = float(more[size_t(i)]) / float(record.directRays);
+    record.direct.irradiance = record.direct.irradiance * (1 - part) + rest.irradiance * part;
+    record.direct.clear = record.direct.clear * (1 - part) + rest.clear * part;
+  });
+  for (const int64_t c : cast) *rays += c;
+}
+
+void GatheredPoints::LookIntoPenumbrae(int32_t first, const SampleNeighbours& neighbours,
+                                       int64_t* rays) {
+  double area = 0;
+  for (const Record& record : records_) area += double(record.at.area) / double(records_.size());
+  std::vector<int> more(records_.size() - size_t(first), 0);
+  ParallelForEach(int64_t(more.size()), 256, [&](int64_t i) {
+    const int32_t index = first + int32_t(i);
+    const Record& record = records_[size_t(index)];
+    const bool isPartial = this->IsInPenumbra(index, neighbours);
+    int wanted = isPartial ? options_.penumbraRays : 0;
+    if (isPartial || record.direct.isScattered) wanted += options_.directRays;
+    const double part = area > 0 ? double(record.at.area) / area : 1;
+    more[size_t(i)] = int(wanted * std::min(kMostByArea, std::max(1.0, part)));
+  });
+  this->CastMoreToEmitters(more, first, rays);
+}
+
+void GatheredPoints::Improve(double noise, int64_t* rays, const ProgressCallback& progress) {
+  options_.noise = noise;
+  if (records_.empty()) return;
+  const SampleNeighbours neighbours(samples_, 0);
+  std::vector<int> more(records_.size(), 0);
+  ParallelForEach(int64_t(more.size()), 256, [&](int64_t i) {
+    const Record& record = records_[size_t(i)];
+    const bool isUnsure = record.direct.isScattered || this->IsInPenumbra(int32_t(i), neighbours);
+    if (isUnsure) more[size_t(i)] = std::min(record.directRays, kMostDirectRays);
+  });
+  this->CastMoreToEmitters(more, 0, rays);
+  this->GatherWhereItScatters(0, neighbours, rays, progress);
+}
+
+// What the bounced light is, all neighbours heard.
+void GatheredPoints::Share(int32_t first, const SampleNeighbours& neighbours) {
+  const int64_t count = int64_t(records_.size()) - first;
+  ParallelForEach(count, 256, [&](int64_t i) {
+    const int32_t index = int32_t(first + i);
+    Record& record = records_[size_t(index)];
+    record.bounced = FilterIrradiance(samples_, neighbours, index);
+    // Few rays may all find the brightest of all, beside direct light from much of the hemisphere.
+    for (int band = 0; band < 3; ++band) {
+      const float most = std::max(0.f, brightest_[band] - record.direct.irradiance[band]);
+      record.bounced.irradiance[band] = std::min(most, record.bounced.irradiance[band]);
+    }
+  });
+}
+
+// What each new point adds to the squared relative error: by its area, and as one of all points.
+std::vector<double> GatheredPoints::Noise(int32_t first) const {
+  const auto lightOf = [](const Record& r) {
+    return std::sqrt(SquaredNorm(r.direct.irradiance + r.bounced.irradiance));
+  };
+  double area = 0, mean = 0, meanSquare = 0;
+  for (const Record& r : records_) area += double(r.at.area);
+  const double each = 1 / double(records_.size());
+  const auto share = [&](const Record& r) {
+    return area > 0 ? kByArea * double(r.at.area) / area + (1 - kByArea) * each : each;
+  };
+  for (const Record& r : records_) mean += share(r) * lightOf(r);
+  std::vector<double> noise(records_.size(), 0);
+  if (!(mean > 0)) return noise;
+  for (const Record& r : records_) {
+    const double light = std::min(lightOf(r), kBlazing * mean);
+    meanSquare += share(r) * light * light;
+  }
+  for (size_t i = size_t(first); i < records_.size(); ++i) {
+    const Record& r = records_[i];
+    noise[i] = share(r) * double(r.bounced.variance) * ErrorWeight(lightOf(r), mean, meanSquare);
+  }
+  return noise;
+}
+
+// Rays in proportion to the root of what they may gain, until what is left is what may be left.
+void GatheredPoints::GatherWhereItScatters(int32_t first, const SampleNeighbours& neighbours,
+                                           int64_t* rays, const ProgressCallback& progress) {
+  const double allowed = options_.noise * options_.noise;
+  for (int round = 0; round < kRounds; ++round) {
+    this->Share(first, neighbours);
+    const std::vector<double> noise = this->Noise(first);
+    double total = 0;
+    for (const double n : noise) total += n;
+    if (total <= allowed) return;
+
+    // By which factor the rays of a point with one unit of noise grow; one that has no more than
+    // its share of what may be left has enough, however much there is elsewhere.
+    double low = std::sqrt(allowed / double(records_.size())), high = low;
+    for (const double n : noise) high = std::max(high, std::sqrt(n));
+    const auto growth = [&](double n, double unit) {
+      return std::min(double(kMostGrowth), std::max(1.0, std::sqrt(n) / unit));
+    };
+    for (int step = 0; step < 30; ++step) {
+      const double unit = (low + high) / 2;
+      double left = 0;
+      for (const double n : noise) left += n / growth(n, unit);
+      (left > allowed ? high : low) = unit;
+    }
+
+    // Those that get the same number go out together.
+    std::vector<double> wanted(records_.size());
+    for (size_t i = size_t(first); i < records_.size(); ++i) {
+      const int had = records_[i].bounces.rays;
+      wanted[i] = had * (std::min(growth(noise[i], low), double(options_.mostRays) / had) - 1);
+    }
+    bool isAny = false;
+    for (int count = options_.firstRays; count < options_.mostRays; count *= 2) {
+      std::vector<int32_t> chosen;
+      std::vector<GatherPoint> places;
+      for (size_t i = size_t(first); i < records_.size(); ++i) {
+        if (!(wanted[i] > kRoundUp * count && wanted[i] <= 2 * kRoundUp * count)) continue;
+        chosen.push_back(int32_t(i));
+        places.push_back(records_[i].at);
+      }
+      if (chosen.empty()) continue;
+      isAny = true;
+      BounceRays bounce;
+      bounce.count = count;
+      bounce.seed = HashBits(HashBits(options_.seed, records_.size()), uint64_t(count + round));
+      const std::vector<BounceSum> sums = gather_.Bounces(places, bounce, rays, progress);
+      for (size_t k = 0; k < chosen.size(); ++k) {
+        Record& record = records_[size_t(chosen[k])];
+        record.bounces += sums[k];
+        samples_[size_t(chosen[k])] = this->SampleOf(record);
+      }
+    }
+    if (!isAny) return;
+  }
+  this->Share(first, neighbours);
+}
+
+}  // namespace lambert

@@ -1,0 +1,85 @@
+// Light at points, gathered with as many rays as each needs: few at first, what neighbours found
+// shared, more where it still scatters.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "Common/Core/Progress.h"
+#include "Radiosity/Core/FinalGather.h"
+#include "Radiosity/Core/IrradianceFilter.h"
+
+namespace lambert {
+
+struct GatheredPointsOptions {
+  int firstRays = 4;      ///< over the hemisphere of every point, a power of two
+  int mostRays = 1024;    ///< over that of any, a power of two
+  int directRays = 16;    ///< to the emitting faces, [1, inf), where many groups of them give light
+  int penumbraRays = 24;  ///< more of them where a point or its neighbours are partly in shadow
+  double noise = 0.02;    ///< relative RMS error that the scatter of rays may leave, (0, 1]
+  uint64_t seed = 1;
+};
+
+class GatheredPoints {
+ public:
+  struct Point {
+    uint64_t key = 0;  ///< by which it is known when it is asked again
+    GatherPoint at;
+  };
+  struct Light {
+    Spectrum irradiance;  ///< W/m2
+    float variance = 0;   ///< of it, sum of the bands, (W/m2)^2
+    bool isNew = false;   ///< not asked before
+  };
+
+  /// By reference.
+  GatheredPoints(const FinalGather& gather, const GatheredPointsOptions& options)
+      : gather_(gather), options_(options), brightest_(gather.Brightest()) {}
+
+  /// Light at every point; those asked before are as they were.
+  /// `areas` of the points count as theirs from now on. Adds the rays cast to `rays`. Throws
+  /// Cancelled.
+  std::vector<Light> At(const std::vector<Point>& points, int64_t* rays,
+                        const ProgressCallback& progress = {});
+  /// More rays for the points asked so far: those partly in shadow get as many to emitters as they
+  /// had, and the scatter of the others falls to `noise`, a relative RMS error, (0, 1]; that goes
+  /// for points asked later too. Adds the rays cast to `rays`. Throws Cancelled.
+  void Improve(double noise, int64_t* rays, const ProgressCallback& progress = {});
+
+ private:
+  struct Record {
+    GatherPoint at;
+    DirectSample direct;
+    int directRays = 0;
+    BounceSum bounces;
+    FilteredIrradiance bounced;
+  };
+
+  void GatherNew(int32_t first, int64_t* rays, const ProgressCallback& progress);
+  bool IsInPenumbra(int32_t record, const SampleNeighbours& neighbours) const;
+  void CastMoreToEmitters(const std::vector<int>& more, int32_t first, int64_t* rays);
+  void LookIntoPenumbrae(int32_t first, const SampleNeighbours& neighbours, int64_t* rays);
+  void Share(int32_t first, const SampleNeighbours& neighbours);
+  void GatherWhereItScatters(int32_t first, const SampleNeighbours& neighbours, int64_t* rays,
+                             const ProgressCallback& progress);
+  std::vector<double> Noise(int32_t first) const;
+  IrradianceSample SampleOf(const Record& record) const;
+
+  const FinalGather& gather_;
+  GatheredPointsOptions options_;
+  const Spectrum brightest_;
+  std::vector<Record> records_;  ///< in the order in which they were asked for
+  std::vector<IrradianceSample> samples_;
+  std::unordered_map<uint64_t, int32_t> recordOfKey_;
+};
+
+/// By how much a squared error (W/m2)^2 at a place with irradiance `light` (W/m2, norm over bands)
+/// counts, where `mean` and `meanSquare` are those of all places: in the relative RMS error, in
+/// which what blazes counts as a multiple of the mean, or in the bounded error, whichever is more.
+double ErrorWeight(double light, double mean, double meanSquare);
+/// Irradiance beyond this many times the mean counts as that much: a lamp's socket must not take
+/// all rays and triangles.
+constexpr double kBlazing = 6;
+
+}  // namespace lambert
