@@ -240,19 +240,6 @@ void AddRooms(Table* table) {
 
 }  // namespace
 
-const KnownFault* FindKnownFault(const std::string& asked, const std::string& method) {
-  static const std::vector<KnownFault> faults{
-      {"12 furnace 0.95", "hierarchical", 0.25,
-       "form factors are cut to a sum of 0.7 where light seems to grow"},
-      {"17 CIE 171 5.8 0.95", "hierarchical", 0.25,
-       "form factors are cut to a sum of 0.7 where light seems to grow"},
-  };
-  for (const KnownFault& fault : faults) {
-    if (asked == fault.asked && method == fault.method) return &fault;
-  }
-  return nullptr;
-}
-
 const std::vector<AccuracyCase>& AccuracyCases() {
   static const Table table = [] {
     Table t;

@@ -48,16 +48,6 @@ struct AccuracyCase {
   double request = 0.05;  ///< error that solvers are asked for
 };
 
-/// What a method is known to miss: wrong by up to `tolerance` of the truth, and why.
-struct KnownFault {
-  const char* asked;
-  const char* method;
-  double tolerance;
-  const char* cause;
-};
-/// Null where none is known.
-const KnownFault* FindKnownFault(const std::string& asked, const std::string& method);
-
 /// All cases, in the order of Documentation/Accuracy.md.
 const std::vector<AccuracyCase>& AccuracyCases();
 

@@ -64,6 +64,7 @@ FinalGather::FinalGather(const ElementHierarchy& hierarchy, const RayScene& rayS
   polygonIrradiance_.resize(size_t(hierarchy.Size()));
   cuts_.resize(size_t(hierarchy.Size()));
   sampleIrradiance_.resize(size_t(hierarchy.Size()));
+  sampleDirect_.resize(size_t(hierarchy.Size()));
   hasGathered_.resize(size_t(hierarchy.Size()), 0);
   for (int32_t index = 0; index < hierarchy.Size(); ++index) {
     const Element& element = hierarchy[index];
@@ -124,8 +125,11 @@ FinalGather::LeafLight FinalGather::GatherAtLeaf(int32_t leaf, int rays, uint64_
   this->GatherBatch(points, kSamplesPerElement, bounce, sums, cast);
   LeafLight mean;
   for (size_t k = 0; k < kSamplesPerElement; ++k) {
-    const Spectrum direct = direct_.At(points[k], kDirectAtLeaves, HashBits(seed, k), cast);
-    mean.atSample[k] = sums[k].Mean() + direct;
+    // Straight from the sources it receives the same in every round.
+    mean.direct[k] = hasGathered_[size_t(leaf)]
+                         ? sampleDirect_[size_t(leaf)][k]
+                         : direct_.At(points[k], kDirectAtLeaves, HashBits(seed, k), cast);
+    mean.atSample[k] = sums[k].Mean() + mean.direct[k];
     mean.reflectedAtSample[k] = sums[k].fromLeaves / float(bounce.count);
     mean.irradiance += mean.atSample[k] / float(kSamplesPerElement);
     mean.reflected += mean.reflectedAtSample[k] / float(kSamplesPerElement);
@@ -244,6 +248,7 @@ void FinalGather::GatherAtLeaves(int rays, uint64_t seed, int64_t* cast) {
     const LeafLight& g = gathered[i];
     this->Receive(leaves[i], Smaller(most, g.irradiance - g.reflected + factor * g.reflected));
     hasGathered_[size_t(leaves[i])] = 1;
+    sampleDirect_[size_t(leaves[i])] = g.direct;
     for (size_t k = 0; k < kSamplesPerElement; ++k) {
       const Spectrum& reflected = g.reflectedAtSample[k];
       sampleIrradiance_[size_t(leaves[i])][k] =

@@ -84,6 +84,7 @@ class FinalGather {
     Spectrum irradiance;
     Spectrum reflected;  ///< part of it that leaves reflected; the rest came from sources
     std::array<Spectrum, kSamplesPerElement> atSample, reflectedAtSample;
+    std::array<Spectrum, kSamplesPerElement> direct;  ///< straight from the sources, at the samples
   };
   LeafLight GatherAtLeaf(int32_t leaf, int rays, uint64_t seed, int64_t* cast) const;
   Spectrum BalancingFactor(const std::vector<int32_t>& leaves,
@@ -113,8 +114,9 @@ class FinalGather {
   /// By element, of leaves that have gathered: what their samples receive, W/m2. A part of a leaf
   /// that is hidden is dark, and what sees the leaf sees the other.
   std::vector<std::array<Spectrum, kSamplesPerElement>> sampleIrradiance_;
-  std::vector<uint8_t> hasGathered_;  ///< by element
-  std::vector<Cut> cuts_;             ///< by element, of triangles and patches that have children
+  std::vector<std::array<Spectrum, kSamplesPerElement>> sampleDirect_;  ///< of it, from sources
+  std::vector<uint8_t> hasGathered_;                                    ///< by element
+  std::vector<Cut> cuts_;  ///< by element, of triangles and patches that have children
 };
 
 }  // namespace lambert

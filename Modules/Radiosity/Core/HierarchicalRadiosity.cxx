@@ -323,7 +323,8 @@ void HierarchicalRadiosity::GatherUntilMet(int iteration, const ProgressCallback
       return Report(progress, 1 - kGatherShare * (1 - std::min(1.0, done)), stage);
     };
     try {
-      solution.Refine(kInterpolationShare * aim, NoiseFor(aim), kCuttingRounds, part);
+      solution.Refine(kInterpolationShare * aim, NoiseFor(aim),
+                      self.options.cutsTriangles ? kCuttingRounds : 0, part);
       self.gathered = solution.Deliver();
     } catch (const Cancelled&) {
       statistics.stoppedBy = "interrupt";

@@ -21,6 +21,9 @@ struct HierarchicalRadiosityOptions {
   /// Points at which a path trace verifies the delivered error, which is improved until it is the
   /// wanted one, [0, inf); 0: what usually gives that error is taken for it.
   int verificationPoints = 2000;
+  /// Whether the final gather cuts triangles where interpolation between their corners fails. Where
+  /// only light at the vertices is wanted that is work for nothing.
+  bool cutsTriangles = true;
   LeafMeshOptions leafMesh;
 };
 
