@@ -72,7 +72,8 @@ Picture Average(const Picture& picture) {
 }
 
 /// True where the pictures agree; `difference` gets the absolute differences.
-bool Agree(const Picture& image, const Picture& baseline, Picture* difference) {
+bool Agree(const Picture& image, const Picture& baseline, Picture* difference,
+           double meanTolerance = kMeanTolerance) {
   if (image.codes.empty() || image.width != baseline.width || image.height != baseline.height) {
     std::fprintf(stderr, "The pictures measure %d x %d and %d x %d pixels.\n", image.width,
                  image.height, baseline.width, baseline.height);
@@ -90,8 +91,8 @@ bool Agree(const Picture& image, const Picture& baseline, Picture* difference) {
   const double mean = sum / double(a.codes.size()),
                share = double(outside) / double(a.codes.size());
   std::printf("mean difference %.3f codes (at most %.3f), outside %.5f (at most %.5f)\n", mean,
-              kMeanTolerance, share, kPixelsOutside);
-  return mean <= kMeanTolerance && share <= kPixelsOutside;
+              meanTolerance, share, kPixelsOutside);
+  return mean <= meanTolerance && share <= kPixelsOutside;
 }
 
 void WriteDifference(const Picture& difference, std::string fileName) {
@@ -133,13 +134,14 @@ int SelfTest(const std::string& pair) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fprintf(stderr, "Usage: lambertCompareImages IMAGE BASELINE\n");
+  const double meanTolerance = argc == 4 ? std::atof(argv[3]) : kMeanTolerance;
+  if (argc < 3 || argc > 4 || !(meanTolerance > 0)) {
+    std::fprintf(stderr, "Usage: lambertCompareImages IMAGE BASELINE [CODES IN THE MEAN]\n");
     return 2;
   }
   if (std::string(argv[1]) == "--self-test") return SelfTest(argv[2]);
   Picture difference;
-  if (Agree(Read(argv[1]), Read(argv[2]), &difference)) return 0;
+  if (Agree(Read(argv[1]), Read(argv[2]), &difference, meanTolerance)) return 0;
   if (!difference.codes.empty()) WriteDifference(difference, argv[1]);
   return 1;
 }
