@@ -48,7 +48,7 @@ constexpr double kGatherShare = 0.6;
 constexpr double kLeastGain = 0.9;
 constexpr int kMostGathers = 4;
 /// An error counts as met a little below the request: the points that verify it are a sample.
-constexpr double kVerifiedBelow = 0.9;
+constexpr double kVerifiedBelow = 0.95;
 /// The next gather aims this far below the wanted error, and takes about this many times as long.
 constexpr double kAimBelow = 0.85, kGatherGrowth = 2;
 /// Points that are gathered at to predict how long all take, and the reserve for what they leave
