@@ -20,7 +20,8 @@ void CheckEmission(const TriangleMesh& mesh, const std::vector<Material>& materi
     const Spectrum& e = mesh.emittance[face];
     if (e.IsFinite() && std::min({e.r, e.g, e.b}) >= 0) continue;
     throw Error("The material '" + materials[size_t(mesh.materialId[face])].name +
-                "' has an emission that is negative or not a finite number; repair the file or set another.");
+                "' has an emission that is negative or not a finite number; repair the file or set "
+                "another.");
   }
 }
 
