@@ -39,6 +39,10 @@ struct Spectrum {
 };
 
 inline Spectrum operator*(float s, const Spectrum& spectrum) { return spectrum * s; }
+/// Sum of the squares of the bands.
+inline double SquaredNorm(const Spectrum& s) {
+  return double(s.r) * s.r + double(s.g) * s.g + double(s.b) * s.b;
+}
 
 /// Luminance weight of linear RGB (ITU-R BT.709).
 inline float Luminance(const Spectrum& s) { return 0.2126f * s.r + 0.7152f * s.g + 0.0722f * s.b; }

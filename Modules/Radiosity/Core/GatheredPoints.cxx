@@ -31,10 +31,6 @@ constexpr int kMostGrowth = 16;
 /// Numbers of rays are powers of two; above this part of one they are rounded up to it.
 constexpr double kRoundUp = 0.7;
 
-double SquaredNorm(const Spectrum& s) {
-  return double(s.r) * s.r + double(s.g) * s.g + double(s.b) * s.b;
-}
-
 }  // namespace
 
 double ErrorWeight(double light, double mean, double meanSquare) {

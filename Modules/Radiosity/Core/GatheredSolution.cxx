@@ -46,10 +46,6 @@ constexpr int64_t kMostTriangles = 300000;
 /// A triangle whose error is more than this many times the threshold is cut twice in a round.
 constexpr double kCutTwice = 4;
 
-double SquaredNorm(const Spectrum& s) {
-  return double(s.r) * s.r + double(s.g) * s.g + double(s.b) * s.b;
-}
-
 /// The cut mesh and its light, from round to round.
 class GatheredMesh {
  public:

@@ -85,10 +85,6 @@ std::vector<ReceiverPoint> Receivers(const std::vector<Place>& places) {
   return receivers;
 }
 
-double SquaredNorm(const Spectrum& s) {
-  return double(s.r) * s.r + double(s.g) * s.g + double(s.b) * s.b;
-}
-
 /// Leaves out, at little cost, the places that are dark in the solution and in a few paths.
 std::vector<Place> WithoutDarkPlaces(const std::vector<Place>& places, const SolutionLookup& lookup,
                                      const PathTracedIrradiance& tracer,
