@@ -22,7 +22,7 @@ constexpr float kInnerDraw = 0.1f;
 /// Light of less than this part of the mean is rounding: of a lamp seen along its own plane.
 constexpr double kLeastLight = 1e-6;
 /// Of the file and of how receivers are chosen and traced: another one is traced anew.
-constexpr uint64_t kVersion = 3;
+constexpr uint64_t kVersion = 4;
 
 template <class T>
 uint64_t HashOf(const std::vector<T>& values, uint64_t seed) {
@@ -99,7 +99,8 @@ std::vector<ReceiverPoint> Points(const std::vector<VertexReceiver>& receivers) 
   return points;
 }
 
-/// The sides of vertices that receive and do not emit, in random order.
+/// The sides of vertices that receive and do not emit, two a vertex and adjacent, vertices in
+/// random order.
 std::vector<VertexReceiver> ShuffledReceivers(const TriangleMesh& mesh, uint64_t seed) {
   std::vector<VertexReceiver> receivers = VertexReceivers(mesh);
   const auto emits = [&](const VertexReceiver& r) {
@@ -108,8 +109,10 @@ std::vector<VertexReceiver> ShuffledReceivers(const TriangleMesh& mesh, uint64_t
   };
   receivers.erase(std::remove_if(receivers.begin(), receivers.end(), emits), receivers.end());
   Random random(HashBits(seed, 0x7265636569766572ull));
-  for (size_t i = receivers.size(); i > 1; --i) {
-    std::swap(receivers[i - 1], receivers[size_t(random.UniformDouble() * double(i))]);
+  for (size_t i = receivers.size() / 2; i > 1; --i) {
+    const size_t other = size_t(random.UniformDouble() * double(i));
+    std::swap_ranges(receivers.begin() + int64_t(2 * i - 2), receivers.begin() + int64_t(2 * i),
+                     receivers.begin() + int64_t(2 * other));
   }
   return receivers;
 }
@@ -126,7 +129,8 @@ std::vector<ReceiverPoint> InnerPoints(const TriangleMesh& mesh,
   return points;
 }
 
-/// The first `count` of `candidates` that a few paths find lit.
+/// The brighter sides of the first `count` vertices of `candidates` that a few paths find lit: what
+/// the points of the input are given. The other side may lie in a shell thinner than rays can see.
 std::vector<VertexReceiver> LitReceivers(const TriangleMesh& mesh,
                                          const std::vector<VertexReceiver>& candidates,
                                          const PathTracedIrradiance& tracer, size_t count,
@@ -135,8 +139,8 @@ std::vector<VertexReceiver> LitReceivers(const TriangleMesh& mesh,
   few.samples = kDarknessPaths;
   few.seed = HashBits(seed, 0x6461726bull);
   std::vector<VertexReceiver> lit;
-  for (size_t begin = 0; begin < candidates.size() && lit.size() < count; begin += count) {
-    const size_t end = std::min(candidates.size(), begin + count);
+  for (size_t begin = 0; begin < candidates.size() && lit.size() < count; begin += 2 * count) {
+    const size_t end = std::min(candidates.size(), begin + 2 * count);
     const std::vector<VertexReceiver> batch(candidates.begin() + int64_t(begin),
                                             candidates.begin() + int64_t(end));
     const auto atVertex = tracer.Estimate(Points(batch), few);
@@ -146,8 +150,10 @@ std::vector<VertexReceiver> LitReceivers(const TriangleMesh& mesh,
     const auto isLit = [&](const IrradianceEstimate& e) {
       return e.irradiance.Mean() > kLeastLight * mean;
     };
-    for (size_t i = 0; i < batch.size() && lit.size() < count; ++i) {
-      if (isLit(atVertex[i]) && isLit(inside[i])) lit.push_back(batch[i]);
+    for (size_t i = 0; i + 1 < batch.size() && lit.size() < count; i += 2) {
+      const size_t brighter =
+          Luminance(atVertex[i].irradiance) >= Luminance(atVertex[i + 1].irradiance) ? i : i + 1;
+      if (isLit(atVertex[brighter]) && isLit(inside[brighter])) lit.push_back(batch[brighter]);
     }
   }
   return lit;

@@ -55,7 +55,56 @@ std::array<int32_t, 2> LeafMesh::Implementation::Split(int32_t id) {
     throw Error("A patch of face " + std::to_string(patch.face) +
                 " is too small to be split; stop at larger patches.");
   }
-  const auto cut = CutPatch(scratch.polygon, options.snapTolerance);
+  return Cut(id, CutPatch(scratch.polygon, options.snapTolerance));
+}
+
+std::vector<int32_t> LeafMesh::Implementation::SplitAlong(int32_t id,
+                                                          const std::array<LeafLine, 2>& lines) {
+  // The ends of the lines in the plane of the face.
+  if (patches[size_t(id)].firstChild >= 0) {
+    throw Error("Patch " + std::to_string(id) + " is split already; split one of its leaves.");
+  }
+  if (patches[size_t(id)].meshFace < 0) AddIsland(id);
+  BorderOf(patches[size_t(id)], &scratch);
+  std::array<std::array<Vec2d, 2>, 2> ends;
+  for (size_t line = 0; line < 2; ++line) {
+    for (size_t end = 0; end < 2; ++end) ends[line][end] = PlaceOn(scratch, lines[line][end]);
+  }
+
+  // Each line cuts the part that it crosses.
+  std::vector<int32_t> leaves = {id};
+  for (const auto& [a, b] : ends) {
+    for (size_t i = 0; i < leaves.size(); ++i) {
+      BorderOf(patches[size_t(leaves[i])], &scratch);
+      if (Extent(scratch.polygon) < kSmallestPatch * scratch.faceLength) continue;
+      const auto cut = CutPatchAlong(scratch.polygon, a, b);
+      if (!cut) continue;
+      const std::array<int32_t, 2> halves = Cut(leaves[i], *cut);
+      leaves[i] = halves[0];
+      leaves.push_back(halves[1]);
+      break;
+    }
+  }
+  if (leaves.size() > 1) return leaves;
+  const std::array<int32_t, 2> halves = Split(id);
+  return {halves[0], halves[1]};
+}
+
+Vec2d LeafMesh::Implementation::PlaceOn(const Border& border, const LeafBorderPlace& place) const {
+  const auto position = [&](int32_t number) {
+    for (size_t i = 0; i < border.vertices.size(); ++i) {
+      if (meshVertices[size_t(border.vertices[i])].number == number)
+        return border.polygon[i].position;
+    }
+    throw Error("Vertex " + std::to_string(number) + " is not on the border of the patch.");
+  };
+  return position(place.from) * (1 - place.fraction) + position(place.to) * place.fraction;
+}
+
+// Splits a patch whose border is in `scratch`.
+std::array<int32_t, 2> LeafMesh::Implementation::Cut(int32_t id,
+                                                     const std::array<PatchCutEnd, 2>& cut) {
+  Patch& patch = patches[size_t(id)];
   const int32_t from = CutVertex(patch, scratch, cut[0]);
   const int32_t to = CutVertex(patch, scratch, cut[1]);
 
@@ -236,6 +285,9 @@ int32_t LeafMesh::FacePatch(int32_t face, Side side) {
   return implementation_->FacePatch(face, side);
 }
 std::array<int32_t, 2> LeafMesh::Split(int32_t patch) { return implementation_->Split(patch); }
+std::vector<int32_t> LeafMesh::SplitAlong(int32_t patch, const std::array<LeafLine, 2>& lines) {
+  return implementation_->SplitAlong(patch, lines);
+}
 int32_t LeafMesh::FindFacePatch(int32_t face, Side side) const {
   return implementation_->facePatch[size_t(face) * 2 + side];
 }

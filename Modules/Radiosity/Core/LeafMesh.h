@@ -35,6 +35,16 @@ struct LeafTriangle {
   int32_t patch = -1;  ///< leaf patch it lies in; -1 where the face has none
 };
 
+/// A place on a patch's border: `fraction` of the way between two of the output vertices on one
+/// straight side of it.
+struct LeafBorderPlace {
+  int32_t from = 0, to = 0;
+  double fraction = 0;
+};
+
+/// A line across a patch, from one place on its border to another.
+using LeafLine = std::array<LeafBorderPlace, 2>;
+
 /// Patches on a half-edge mesh that holds split triangles only; every other triangle finds the
 /// points on its edges by the positions of their ends when it is triangulated. Patches may be read
 /// from several threads while none splits.
@@ -53,6 +63,11 @@ class LeafMesh {
   /// split already it returns the halves. Throws Error where the patch is a 1e-12th of its face
   /// across.
   std::array<int32_t, 2> Split(int32_t patch);
+
+  /// Splits a leaf patch along two lines that do not cross within it: into three, or two where one
+  /// of the lines only touches it; where both do, as Split. Returns the leaves in its place.
+  /// Throws Error where an end of a line names a vertex that is not on the patch's border.
+  std::vector<int32_t> SplitAlong(int32_t patch, const std::array<LeafLine, 2>& lines);
 
   /// The first half of a split patch, the other follows it; -1 for a leaf.
   int32_t FirstHalf(int32_t patch) const;

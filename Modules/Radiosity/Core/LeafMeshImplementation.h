@@ -57,6 +57,7 @@ struct LeafMesh::Implementation {
   // Patches.
   int32_t FacePatch(int32_t face, Side side);
   std::array<int32_t, 2> Split(int32_t patch);
+  std::vector<int32_t> SplitAlong(int32_t patch, const std::array<LeafLine, 2>& lines);
   bool IsSplit(int32_t face, Side side) const {
     const int32_t patch = facePatch[size_t(face) * 2 + side];
     return patch >= 0 && patches[size_t(patch)].firstChild >= 0;
@@ -64,6 +65,7 @@ struct LeafMesh::Implementation {
 
   // The half-edge mesh.
   void AddIsland(int32_t patch);
+  std::array<int32_t, 2> Cut(int32_t patch, const std::array<PatchCutEnd, 2>& cut);
   int32_t AddMeshVertex(const Vec3d& weights, int32_t number);
   void SplitMeshEdge(int32_t edge, int32_t vertex);
   void SplitRim(int32_t edge, EdgeUse* use, int32_t index);
@@ -71,6 +73,7 @@ struct LeafMesh::Implementation {
   int32_t RimVertex(const Patch& patch, int32_t line, double fromWeight, double toWeight);
   std::vector<Vec3f> CornersOf(const Border& border) const;
   void BorderOf(const Patch& patch, Border* border) const;
+  Vec2d PlaceOn(const Border& border, const LeafBorderPlace& place) const;
 
   // Triangles.
   std::vector<LeafTriangle> Triangulate(const std::vector<uint8_t>& litSides);

@@ -16,6 +16,8 @@ constexpr double kFlatness = 1e-9;  // Height over length below which a triangle
 // up shorter.
 constexpr double kLeastSnap = 1e-4;
 constexpr double kLeastLean = 1e-3;
+// A line passes through a vertex that is this near, relative to the border's extent.
+constexpr double kOnLine = 1e-3;
 
 double DotProduct(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
 Vec2d Perpendicular(Vec2d v) { return {-v.y, v.x}; }
@@ -147,6 +149,44 @@ std::array<PatchCutEnd, 2> CutPatch(const std::vector<PatchBorderVertex>& border
   const PatchCutEnd straight = chains[moved].Crossing(place[kept]);
   const int vertex = chains[moved].Nearest(place[kept], mostLean(ends[kept], straight));
   ends[moved] = vertex >= 0 ? PatchCutEnd{vertex, -1, 0} : straight;
+  return ends;
+}
+
+std::optional<std::array<PatchCutEnd, 2>> CutPatchAlong(
+    const std::vector<PatchBorderVertex>& border, Vec2d a, Vec2d b) {
+  // On which side of the line each vertex lies, and how far from it.
+  const Vec2d direction = b - a;
+  const double length = std::hypot(direction.x, direction.y);
+  double extent = 0;
+  for (const PatchBorderVertex& vertex : border) {
+    const Vec2d offset = vertex.position - border.front().position;
+    extent = std::max({extent, std::abs(offset.x), std::abs(offset.y)});
+  }
+  if (!(length > kOnLine * extent)) return {};
+  const int count = int(border.size());
+  std::vector<double> height(border.size());
+  for (int i = 0; i < count; ++i) {
+    const double h = DotProduct(Perpendicular(direction), border[size_t(i)].position - a) / length;
+    height[size_t(i)] = std::abs(h) > kOnLine * extent ? h : 0;
+  }
+
+  // Where the border passes from one side to the other.
+  std::array<PatchCutEnd, 2> ends;
+  int found = 0, before = 0;
+  while (before < count && height[size_t(before)] == 0) ++before;
+  for (int step = 1, last = before; step <= count && before < count; ++step) {
+    const int i = (before + step) % count;
+    if (height[size_t(i)] == 0) continue;
+    const double from = height[size_t(last)], to = height[size_t(i)];
+    if ((from > 0) != (to > 0)) {
+      const int between = (last + 1) % count;
+      if (found == 2) return {};
+      ends[size_t(found++)] =
+          between == i ? PatchCutEnd{last, i, from / (from - to)} : PatchCutEnd{between, -1, 0};
+    }
+    last = i;
+  }
+  if (found != 2) return {};
   return ends;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "Common/Core/Vector.h"
@@ -42,6 +43,11 @@ PatchRectangle MinimumPatchRectangle(const std::vector<PatchBorderVertex>& borde
 /// of the polygon and apart from every vertex that they are not.
 std::array<PatchCutEnd, 2> CutPatch(const std::vector<PatchBorderVertex>& border,
                                     double snapTolerance);
+
+/// Ends of the line through `a` and `b` in the same border; none where the border does not lie on
+/// both sides of it. Vertices within a thousandth of the border's extent of the line lie on it.
+std::optional<std::array<PatchCutEnd, 2>> CutPatchAlong(
+    const std::vector<PatchBorderVertex>& border, Vec2d a, Vec2d b);
 
 /// Corners of a triangle in its own plane, counter-clockwise, the longest edge along x. A triangle
 /// without area gets a height of 1e-9 of its length, so that its parts keep their proportions and

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "Common/Core/Parallel.h"
+#include "Reference/Core/VertexReceivers.h"
 
 namespace lambert {
 
@@ -174,6 +175,10 @@ RefinedMesh::RefinedMesh(ElementHierarchy* hierarchy, const std::vector<uint8_t>
     const uint8_t sides = litSides[size_t(input.surfaceId[face])];
     faceSides_[face] = sides ? sides : uint8_t(1);
   }
+  insideOfPoint_.resize(input.positions.size());
+  for (const VertexReceiver& r : VertexReceivers(input)) {
+    insideOfPoint_[size_t(r.point)] = {r.inside, input.FrontNormal(r.face)};
+  }
   this->Triangulate();
 }
 
@@ -228,6 +233,12 @@ RefinedMesh::Point RefinedMesh::MakePoint(const Range& group) const {
       point.inside = Centroid(vertices, triangle);
       point.insideNormal = input.FrontNormal(triangle.face) * (triangle.side == kBack ? -1.f : 1.f);
     }
+  }
+  if (vertex < input.PointCount() && insideOfPoint_[size_t(vertex)].frontNormal != Vec3f()) {
+    const Inside& inside = insideOfPoint_[size_t(vertex)];
+    const bool isBack = triangles_[size_t(corners_[size_t(group.begin)].triangle)].side == kBack;
+    point.inside = inside.position;
+    point.insideNormal = isBack ? -inside.frontNormal : inside.frontNormal;
   }
   point.reflectance *= 1 / total;
   point.emittance *= 1 / total;

@@ -20,9 +20,9 @@ class RefinedMesh {
     Vec3f position;
     Vec3f normal;        ///< unit; irradiance is for it
     Vec3f faceNormal;    ///< unit, mean of the faces that meet here
-    Vec3f inside;        ///< middle of the largest triangle that meets here: light is asked for a
-                         ///< little toward it
-    Vec3f insideNormal;  ///< unit, of that triangle
+    Vec3f inside;        ///< light is asked for a little toward it: for an input point as
+                         ///< VertexReceivers says, else the middle of the largest triangle here
+    Vec3f insideNormal;  ///< unit, of the face that lies there
     Vec2f uv;
     Spectrum reflectance, emittance;  ///< means over the faces that meet here
   };
@@ -65,6 +65,11 @@ class RefinedMesh {
 
   ElementHierarchy* hierarchy_;
   std::vector<uint8_t> faceSides_;
+  /// What lies inside of an input point, and the front normal of the face that does.
+  struct Inside {
+    Vec3f position, frontNormal;
+  };
+  std::vector<Inside> insideOfPoint_;
   std::vector<LeafTriangle> triangles_;
   std::vector<int32_t> leaves_;  ///< per triangle: its leaf element; -1 for none
   std::vector<Corner> corners_;  ///< sorted

@@ -109,12 +109,16 @@ std::vector<VertexReceiver> VertexReceivers(const TriangleMesh& mesh) {
     const Vec3f front = mesh.FrontNormal(place.face);
     const Vec3f normal = mesh.normals.empty() ? front : mesh.normals[size_t(point)];
     const bool facesFront = Dot(normal, front) >= 0;
-    const Vec3f position(Vec3d(mesh.positions[size_t(point)]) + place.offset);
+    const Vec3d corner(mesh.positions[size_t(point)]);
+    const Vec3f position(corner + place.offset), inside(corner + place.offset / kVertexDraw);
     const Vec3f geometric = facesFront ? front : -front;
     const Side side = facesFront ? kFront : kBack;
-    receivers.push_back({point, place.face, side, {position, normal, geometric}});
-    receivers.push_back(
-        {point, place.face, side == kFront ? kBack : kFront, {position, -normal, -geometric}});
+    receivers.push_back({point, place.face, side, {position, normal, geometric}, inside});
+    receivers.push_back({point,
+                         place.face,
+                         side == kFront ? kBack : kFront,
+                         {position, -normal, -geometric},
+                         inside});
   }
   return receivers;
 }

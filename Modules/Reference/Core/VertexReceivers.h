@@ -19,6 +19,7 @@ struct VertexReceiver {
   int32_t face;   ///< one of the point's triangles; `receiver` lies on it
   Side side;      ///< of that face, by its stored winding
   ReceiverPoint receiver;
+  Vec3f inside;  ///< place on the face of which `receiver` lies kVertexDraw of the way
 };
 
 /// The receivers of a mesh, two a point and adjacent: first the side that the point's normal faces,

@@ -323,6 +323,69 @@ TEST(LeafMesh, RefiningOnBetweenOutputsKeepsItSound) {
   }
 }
 
+TEST(LeafMesh, AStripIsCutOutAlongTwoLines) {
+  // From a quarter of the longest side to a half of the left one, three hundredths wide.
+  const TriangleMesh mesh = Mesh({{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  LeafMesh leaves(mesh);
+  const int32_t whole = leaves.FacePatch(0, kFront);
+  const LeafLine first = {LeafBorderPlace{1, 2, 0.25}, LeafBorderPlace{2, 0, 0.5}};
+  const LeafLine second = {LeafBorderPlace{1, 2, 0.28}, LeafBorderPlace{2, 0, 0.47}};
+  const std::vector<int32_t> parts = leaves.SplitAlong(whole, {first, second});
+  ASSERT_EQ(parts.size(), 3u);
+  std::vector<double> areas;
+  for (const int32_t part : parts) areas.push_back(PolygonArea(leaves.Corners(part)));
+  std::sort(areas.begin(), areas.end());
+  // Above the lines are triangles with the apex (0, 1): shares of its two sides, of an area of 1.
+  EXPECT_NEAR(areas[0], 0.75 * 0.5 - 0.72 * 0.47, 1e-6);
+  EXPECT_NEAR(areas[1], 0.72 * 0.47, 1e-6);
+  EXPECT_NEAR(areas[2], 1 - 0.75 * 0.5, 1e-6);
+  ExpectSoundOutput(mesh, Output(mesh, &leaves));
+  EXPECT_THROW(leaves.SplitAlong(whole, {first, second}), Error);
+  const LeafLine foreign = {LeafBorderPlace{7, 2, 0.25}, LeafBorderPlace{2, 0, 0.5}};
+  EXPECT_THROW(leaves.SplitAlong(parts[0], {foreign, foreign}), Error);
+}
+
+TEST(LeafMesh, LinesThatOnlyTouchLeaveHalves) {
+  const TriangleMesh mesh = Mesh({{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  LeafMesh leaves(mesh);
+  const LeafLine side = {LeafBorderPlace{0, 1, 0}, LeafBorderPlace{0, 1, 1}};
+  const int32_t whole = leaves.FacePatch(0, kFront);
+  EXPECT_EQ(leaves.SplitAlong(whole, {side, side}).size(), 2u);
+  ExpectSoundOutput(mesh, Output(mesh, &leaves));
+}
+
+TEST(LeafMesh, RandomStripsKeepItWatertight) {
+  for (uint32_t seed = 1; seed <= 6; ++seed) {
+    const TriangleMesh mesh = Grid(3, seed % 2 == 0, seed);
+    LeafMesh leaves(mesh);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::vector<int32_t> open;
+    for (int32_t face = 0; face < mesh.FaceCount(); face += 2) {
+      const int32_t patch = leaves.FacePatch(face, random() % 2 ? kFront : kBack);
+      const auto& p = mesh.triangles[size_t(face)];
+      const size_t corner = random() % 3, next = (corner + 1) % 3, last = (corner + 2) % 3;
+      const double a = unit(random), b = unit(random);
+      const double c = a + 0.1 * unit(random) * (1 - a), d = b * (1 - 0.1 * unit(random));
+      const LeafLine first = {LeafBorderPlace{p[corner], p[next], a},
+                              LeafBorderPlace{p[next], p[last], b}};
+      const LeafLine second = {LeafBorderPlace{p[corner], p[next], c},
+                               LeafBorderPlace{p[next], p[last], d}};
+      for (const int32_t part : leaves.SplitAlong(patch, {first, second})) open.push_back(part);
+    }
+    ExpectSoundOutput(mesh, Output(mesh, &leaves));
+    // Halves and strips mixed.
+    for (int i = 0; i < 20; ++i) {
+      const size_t pick = random() % open.size();
+      if (LongestEdge(leaves.Corners(open[pick])) < 0.1f) continue;
+      const auto halves = leaves.Split(open[pick]);
+      open[pick] = halves[0];
+      open.push_back(halves[1]);
+    }
+    ExpectSoundOutput(mesh, Output(mesh, &leaves));
+  }
+}
+
 TEST(LeafMesh, VerticesAreSharedWhereInputPointsAre) {
   // Faces 0 and 1 share points; face 2 lies on the same edge with points of its own.
   const TriangleMesh mesh =

@@ -121,6 +121,51 @@ TEST(PatchSplitting, FlatTriangleHasAHeight) {
   EXPECT_GT(Area(flat[0], flat[1], flat[2]), 0);
 }
 
+TEST(PatchSplitting, ALineCutsTheBorderWhereItCrossesIt) {
+  const Border square = {{{0, 0}}, {{2, 0}}, {{2, 1}}, {{1, 1}, false}, {{0, 1}}};
+  const auto across = CutPatchAlong(square, {0.5, 0.2}, {0.5, 0.3});
+  ASSERT_TRUE(across);
+  for (const PatchCutEnd& end : *across) EXPECT_NEAR(PlaceOf(square, end).x, 0.5, 1e-12);
+  EXPECT_NEAR(std::abs(PlaceOf(square, (*across)[0]).y - PlaceOf(square, (*across)[1]).y), 1,
+              1e-12);
+
+  // Through a vertex, and as near to one as makes no difference.
+  for (const double x : {1., 1.0001}) {
+    const auto through = CutPatchAlong(square, {x, -1}, {x, 3});
+    ASSERT_TRUE(through);
+    const auto isVertex = [](const PatchCutEnd& end) { return end.to < 0 && end.from == 3; };
+    EXPECT_EQ(std::count_if(through->begin(), through->end(), isVertex), 1);
+  }
+
+  // Past it, along a side, through a corner alone, and no line at all.
+  EXPECT_FALSE(CutPatchAlong(square, {3, 0}, {3, 1}));
+  EXPECT_FALSE(CutPatchAlong(square, {0, 0}, {2, 0}));
+  EXPECT_FALSE(CutPatchAlong(square, {-1, 1}, {1, -1}));
+  EXPECT_FALSE(CutPatchAlong(square, {0.5, 0.5}, {0.5, 0.5}));
+}
+
+TEST(PatchSplitting, RandomLinesPartTheBorder) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-0.2, 1.2);
+  int cuts = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Border border = RandomBorder(&random, 0.01 + 0.5 * std::abs(unit(random)), 4);
+    const Vec2d a(unit(random), 0.5 * unit(random)), b(unit(random), 0.5 * unit(random));
+    const auto ends = CutPatchAlong(border, a, b);
+    if (!ends) continue;
+    ++cuts;
+    // Both ends on the line, to the thousandth of the border within which vertices count as on it.
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    for (const PatchCutEnd& end : *ends) {
+      EXPECT_LT(std::abs(Area(a, b, PlaceOf(border, end))) * 2 / length, 2.1e-3);
+    }
+    EXPECT_GT(std::hypot(PlaceOf(border, (*ends)[0]).x - PlaceOf(border, (*ends)[1]).x,
+                         PlaceOf(border, (*ends)[0]).y - PlaceOf(border, (*ends)[1]).y),
+              0);
+  }
+  EXPECT_GT(cuts, 500);
+}
+
 TEST(PatchTriangulation, TrianglesCoverThePatchAndUseItsWholeBorder) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 2000; ++trial) {

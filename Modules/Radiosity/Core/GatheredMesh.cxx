@@ -1,0 +1,291 @@
+#include "Radiosity/Core/GatheredMesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "Common/Core/Parallel.h"
+#include "Common/Core/Random.h"
+
+namespace lambert {
+
+namespace {
+
+/// Light is asked for this far toward the middle of the triangles at a point, so that corners do
+/// not see through walls.
+constexpr float kInset = 1e-3f, kMostInset = 0.1f;
+/// At least this many times the length that rays skip: within it they would pass what they should
+/// meet.
+constexpr float kInsetOverSkip = 8;
+/// Of the difference between a triangle's corners, the part that is taken for error before anything
+/// is known: some of it is a slope, which interpolation gets right.
+constexpr float kFirstNonlinearity = 0.7f;
+constexpr float kLeastNonlinearity = 0.05f;
+/// Differences up to this many times the variance of a triangle's corners are taken for scatter.
+constexpr double kScatter = 3;
+/// Of the triangles of a size at least so many, and one to so many, are asked in their middle; all
+/// are where they hold more than this part of the squared error that is wanted.
+constexpr size_t kLeastProbes = 32, kProbedPart = 16;
+constexpr double kProbedError = 0.05;
+/// Tells the key of a triangle's middle from that of a point.
+constexpr uint64_t kMiddle = 0x6d6964646c65;
+
+}  // namespace
+
+void GatheredMesh::GatherAtPoints(int64_t* rays, const ProgressCallback& progress) {
+  // The points, each a little within its triangles.
+  const std::vector<RefinedMesh::Point>& points = mesh_.Points();
+  std::vector<GatheredPoints::Point> places(points.size());
+  ParallelForEach(int64_t(points.size()), 1024, [&](int64_t p) {
+    const RefinedMesh::Point& point = points[size_t(p)];
+    places[size_t(p)] = {point.key, this->PlaceOf(int32_t(p), point.inside, point.insideNormal)};
+  });
+  for (size_t t = 0; t < mesh_.Triangles().size(); ++t) {
+    const float share = this->Receives(int64_t(t)) ? float(this->Area(int64_t(t))) / 3 : 0;
+    for (const int32_t p : mesh_.PointsOfTriangles()[t]) places[size_t(p)].at.area += share;
+  }
+
+  // Their light.
+  const std::vector<GatheredPoints::Light> lights = gathered_.At(places, rays, progress);
+  irradiance_.resize(points.size());
+  variance_.resize(points.size());
+  isNew_.resize(points.size());
+  for (size_t p = 0; p < points.size(); ++p) {
+    irradiance_[p] = lights[p].irradiance;
+    variance_[p] = lights[p].variance;
+    isNew_[p] = lights[p].isNew;
+  }
+}
+
+// A point, drawn a little toward what lies inside.
+GatherPoint GatheredMesh::PlaceOf(int32_t index, const Vec3f& inside, const Vec3f& normal) const {
+  const RefinedMesh::Point& point = mesh_.Points()[size_t(index)];
+  const Vec3f inward = inside - point.position;
+  const float least = kInsetOverSkip * skip_ / std::max(Length(inward), 1e-30f);
+  const Vec3f place = point.position + inward * std::min(kMostInset, std::max(kInset, least));
+  return {place, point.normal, normal, 0};
+}
+
+// Largest squared difference between two corners, beyond what their scatter explains.
+double GatheredMesh::Difference(int64_t triangle) const {
+  const auto& p = mesh_.PointsOfTriangles()[size_t(triangle)];
+  double most = 0;
+  const double noise = double(variance_[size_t(p[0])]) + double(variance_[size_t(p[1])]) +
+                       double(variance_[size_t(p[2])]);
+  for (size_t c = 0; c < 3; ++c) {
+    const Spectrum &a = irradiance_[size_t(p[c])], &b = irradiance_[size_t(p[(c + 1) % 3])];
+    most = std::max(most, SquaredNorm(a - b));
+  }
+  return std::max(0.0, most - kScatter * noise);
+}
+
+double GatheredMesh::Area(int64_t triangle) const {
+  const auto& p = mesh_.PointsOfTriangles()[size_t(triangle)];
+  const std::vector<RefinedMesh::Point>& points = mesh_.Points();
+  const Vec3f& a = points[size_t(p[0])].position;
+  return 0.5 * double(Length(
+                   Cross(points[size_t(p[1])].position - a, points[size_t(p[2])].position - a)));
+}
+
+// Squared relative error of interpolation times area: a jump of height h somewhere in a triangle
+// leaves about h^2 / 6 in the mean; or what its middle tells, if that is more.
+double GatheredMesh::Error(int64_t triangle, const LightScale& scale) const {
+  const int32_t patch = mesh_.Triangles()[size_t(triangle)].patch;
+  const double part = patch >= 0 && size_t(patch) < nonlinearity_.size()
+                          ? double(nonlinearity_[size_t(patch)])
+                          : double(kFirstNonlinearity);
+  const double light = this->MeanLight(triangle);
+  double error = part * part * this->Difference(triangle) / 6 *
+                 ErrorWeight(light, scale.mean, scale.meanSquare);
+  const auto probed = probed_.find(this->Key(triangle));
+  if (probed != probed_.end()) {
+    const double brightest = std::max(light, probed->second.light);
+    error = std::max(
+        error, probed->second.deviation * ErrorWeight(brightest, scale.mean, scale.meanSquare));
+  }
+  return this->Area(triangle) * error;
+}
+
+bool GatheredMesh::Receives(int64_t triangle) const {
+  const LeafTriangle& leaf = mesh_.Triangles()[size_t(triangle)];
+  return !hierarchy_->GetScene().mesh.Emits(leaf.face, Side(leaf.side));
+}
+
+uint64_t GatheredMesh::Key(int64_t triangle) const {
+  uint64_t key = 0;
+  for (const int32_t p : mesh_.PointsOfTriangles()[size_t(triangle)]) {
+    key = HashBits(key, mesh_.Points()[size_t(p)].key);
+  }
+  return key;
+}
+
+// A triangle may hold a light or a shadow that none of its corners lies in. Of every size some are
+// asked in their middle; where those tell of an error that counts, all of that size are.
+void GatheredMesh::ProbeMiddles(double wanted, int64_t* rays) {
+  // Triangles by size, an octave of area a class; those that were asked before stay as they are.
+  const LightScale scale = this->MeasureLight();
+  if (!(scale.mean > 0)) return;
+  std::map<int, std::vector<int64_t>> classes;
+  for (int64_t t = 0; t < int64_t(mesh_.Triangles().size()); ++t) {
+    if (!this->Receives(t) || !(this->Area(t) > 0) || probed_.count(this->Key(t))) continue;
+    classes[std::ilogb(this->Area(t))].push_back(t);
+  }
+
+  // A few of each.
+  std::vector<int64_t> few;
+  std::map<int, std::pair<size_t, size_t>> fewOfClass;
+  for (auto& [size, triangles] : classes) {
+    std::sort(triangles.begin(), triangles.end(), [&](int64_t a, int64_t b) {
+      const uint64_t hashA = HashBits(uint64_t(a)), hashB = HashBits(uint64_t(b));
+      return hashA < hashB;
+    });
+    const size_t count =
+        std::min(triangles.size(), std::max(kLeastProbes, triangles.size() / kProbedPart));
+    fewOfClass[size] = {few.size(), few.size() + count};
+    few.insert(few.end(), triangles.begin(), triangles.begin() + int64_t(count));
+  }
+  this->Probe(few, rays);
+
+  // All of the classes that have something to tell.
+  std::vector<int64_t> rest;
+  for (const auto& [size, triangles] : classes) {
+    const auto& [begin, end] = fewOfClass[size];
+    double error = 0;
+    for (size_t i = begin; i < end; ++i) {
+      const Middle& middle = probed_[this->Key(few[i])];
+      const double light = std::max(middle.light, this->MeanLight(few[i]));
+      error += this->Area(few[i]) / scale.area * middle.deviation *
+               ErrorWeight(light, scale.mean, scale.meanSquare);
+    }
+    error *= double(triangles.size()) / double(end - begin);
+    if (error < kProbedError * wanted * wanted) continue;
+    rest.insert(rest.end(), triangles.begin() + int64_t(end - begin), triangles.end());
+  }
+  this->Probe(rest, rays);
+}
+
+// How far the light in the middle of triangles is from what their corners interpolate.
+void GatheredMesh::Probe(const std::vector<int64_t>& triangles, int64_t* rays) {
+  std::vector<GatheredPoints::Point> places;
+  for (const int64_t t : triangles) {
+    GatherPoint place;
+    for (const int32_t p : mesh_.PointsOfTriangles()[size_t(t)]) {
+      const RefinedMesh::Point& point = mesh_.Points()[size_t(p)];
+      place.position += point.position / 3.f;
+      place.normal += point.normal;
+    }
+    const LeafTriangle& leaf = mesh_.Triangles()[size_t(t)];
+    const Vec3f front = hierarchy_->GetScene().mesh.FrontNormal(leaf.face);
+    place.normal = Normalize(place.normal);
+    place.geometricNormal = leaf.side == kFront ? front : -front;
+    place.area = float(this->Area(t));
+    places.push_back({HashBits(this->Key(t), kMiddle), place});
+  }
+  const std::vector<GatheredPoints::Light> gathered = gathered_.At(places, rays);
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    Spectrum expected;
+    double noise = double(gathered[i].variance);
+    for (const int32_t p : mesh_.PointsOfTriangles()[size_t(triangles[i])]) {
+      expected += irradiance_[size_t(p)] / 3.f;
+      noise += double(variance_[size_t(p)]) / 9;
+    }
+    const double deviation = SquaredNorm(gathered[i].irradiance - expected);
+    probed_[this->Key(triangles[i])] = {std::max(0.0, deviation - kScatter * noise),
+                                        std::sqrt(SquaredNorm(gathered[i].irradiance))};
+  }
+}
+
+int32_t GatheredMesh::PatchOf(int64_t triangle) {
+  const LeafTriangle& t = mesh_.Triangles()[size_t(triangle)];
+  return t.patch >= 0 ? t.patch : hierarchy_->Leaves().FacePatch(t.face, Side(t.side));
+}
+
+// Nothing more is to be had from cutting it.
+bool GatheredMesh::IsAtFloor(int64_t triangle) const {
+  Box3f box;
+  for (const int32_t p : mesh_.PointsOfTriangles()[size_t(triangle)]) {
+    box.Include(mesh_.Points()[size_t(p)].position);
+  }
+  return box.Diagonal() < hierarchy_->Floor(mesh_.Triangles()[size_t(triangle)].face);
+}
+
+bool GatheredMesh::IsPatchAtFloor(int32_t patch) const {
+  Box3f box;
+  for (const Vec3f& corner : hierarchy_->Leaves().Corners(patch)) box.Include(corner);
+  return box.Diagonal() < hierarchy_->Floor(hierarchy_->Leaves().PatchFace(patch));
+}
+
+// What the new points say of the interpolation that they replace.
+void GatheredMesh::LearnNonlinearity() {
+  nonlinearity_.resize(size_t(hierarchy_->Leaves().PatchCount()), kFirstNonlinearity);
+  if (before_.empty()) return;
+  std::vector<double> deviation(before_.size(), 0);
+  const auto& triangles = mesh_.Triangles();
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    const int32_t patch = triangles[t].patch;
+    if (patch < 0 || beforeOfPatch_[size_t(patch)] < 0) continue;
+    const size_t index = size_t(beforeOfPatch_[size_t(patch)]);
+    const Before& before = before_[index];
+    for (const int32_t p : mesh_.PointsOfTriangles()[t]) {
+      if (!isNew_[size_t(p)]) continue;
+      // In the triangle of before that holds it.
+      const Vec3f& x = mesh_.Points()[size_t(p)].position;
+      float most = std::numeric_limits<float>::lowest();
+      Spectrum expected;
+      for (size_t k = 0; k < before.corners.size(); ++k) {
+        const auto& c = before.corners[k];
+        const Vec3f normal = Cross(c[1] - c[0], c[2] - c[0]);
+        const float square = LengthSquared(normal);
+        if (!(square > 0)) continue;
+        const float w1 = Dot(Cross(x - c[0], c[2] - c[0]), normal) / square;
+        const float w2 = Dot(Cross(c[1] - c[0], x - c[0]), normal) / square;
+        const float least = std::min({1 - w1 - w2, w1, w2});
+        if (least <= most) continue;
+        most = least;
+        const auto& e = before.light[k];
+        expected = e[0] * (1 - w1 - w2) + e[1] * w1 + e[2] * w2;
+      }
+      deviation[index] = std::max(deviation[index], SquaredNorm(irradiance_[size_t(p)] - expected));
+    }
+  }
+  for (size_t patch = 0; patch < beforeOfPatch_.size(); ++patch) {
+    const int32_t index = beforeOfPatch_[patch];
+    if (index < 0) continue;
+    const double difference = before_[size_t(index)].difference;
+    nonlinearity_[patch] =
+        difference > 0
+            ? std::min(1.f, std::max(kLeastNonlinearity,
+                                     float(std::sqrt(deviation[size_t(index)] / difference))))
+            : 1.f;
+  }
+}
+
+double GatheredMesh::MeanLight(int64_t triangle) const {
+  double light = 0;
+  for (const int32_t p : mesh_.PointsOfTriangles()[size_t(triangle)]) {
+    light += std::sqrt(SquaredNorm(irradiance_[size_t(p)])) / 3;
+  }
+  return light;
+}
+
+// Of what receives; what blazes counts as a multiple of the mean.
+GatheredMesh::LightScale GatheredMesh::MeasureLight() const {
+  LightScale scale;
+  const int64_t count = int64_t(mesh_.Triangles().size());
+  for (int64_t t = 0; t < count; ++t) {
+    if (!this->Receives(t)) continue;
+    scale.area += this->Area(t);
+    scale.mean += this->Area(t) * this->MeanLight(t);
+  }
+  if (!(scale.mean > 0)) return {};
+  scale.mean /= scale.area;
+  for (int64_t t = 0; t < count; ++t) {
+    if (!this->Receives(t)) continue;
+    const double light = std::min(this->MeanLight(t), kBlazing * scale.mean);
+    scale.meanSquare += this->Area(t) * light * light / scale.area;
+  }
+  return scale;
+}
+
+}  // namespace lambert

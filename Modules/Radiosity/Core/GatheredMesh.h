@@ -1,0 +1,120 @@
+// The mesh of a gathered solution and its light, from round to round: gathered at its points, cut
+// where they are too few.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "Common/Core/Progress.h"
+#include "Radiosity/Core/ElementHierarchy.h"
+#include "Radiosity/Core/GatheredPoints.h"
+#include "Radiosity/Core/RefinedMesh.h"
+
+namespace lambert {
+
+class GatheredMesh {
+ public:
+  /// All by reference; `skip` is the length that rays skip, m.
+  GatheredMesh(ElementHierarchy* hierarchy, const FinalGather& gather, float skip,
+               const std::vector<uint8_t>& litSides, const GatheredPointsOptions& options)
+      : hierarchy_(hierarchy),
+        gather_(gather),
+        seed_(options.seed),
+        gathered_(gather, options),
+        skip_(skip),
+        mesh_(hierarchy, litSides),
+        firstTriangles_(int64_t(mesh_.Triangles().size())) {}
+
+  /// Light at the points that have none yet.
+  void GatherAtPoints(int64_t* rays, const ProgressCallback& progress);
+  /// More rays at the points that have light, until `noise` is left.
+  void Improve(double noise, int64_t* rays, const ProgressCallback& progress) {
+    gathered_.Improve(noise, rays, progress);
+  }
+  /// How far interpolation was off where triangles were cut.
+  void LearnNonlinearity();
+  /// Asks for light in the middle of triangles that may hold more error than their corners tell;
+  /// `wanted` is the relative RMS error that is.
+  void ProbeMiddles(double wanted, int64_t* rays);
+  /// Cuts the triangles that hold the most of the error, along the edges of shadows where they find
+  /// one, until interpolation leaves about `wanted`; false where it does, or nothing can be cut.
+  bool CutTriangles(double wanted, int64_t* rays);
+  RadiositySolution Deliver() const { return mesh_.Deliver(irradiance_); }
+
+ private:
+  /// A patch that was cut in this round, as it was: what its points would have interpolated.
+  struct Before {
+    std::vector<std::array<Vec3f, 3>> corners;
+    std::vector<std::array<Spectrum, 3>> light;
+    double difference = 0;  ///< largest squared difference between the corners of a triangle
+  };
+
+  /// A patch that is to be cut.
+  struct ChosenPatch {
+    int32_t patch;
+    double error;  ///< largest of its triangles'
+    std::vector<int64_t> triangles;
+  };
+  /// A piece of a patch's border between two of its points.
+  struct BorderSegment {
+    std::array<int32_t, 2> points, vertices;  ///< counter-clockwise about the patch
+    Vec3f normal;                             ///< of the face, unit
+    double change;  ///< squared difference of light, beyond scatter, (W/m2)^2
+  };
+  /// Where an edge of light enters a patch and where it leaves.
+  struct Crossing {
+    size_t chosen;
+    Vec3f middle;  ///< of the patch
+    double area, length;
+    std::array<BorderSegment, 2> segments;
+    std::array<size_t, 2> searched;
+  };
+
+  /// Of what receives: its area, m2, mean irradiance and mean square (W/m2, norm over bands).
+  struct LightScale {
+    double area = 0, mean = 0, meanSquare = 0;
+  };
+  LightScale MeasureLight() const;
+  double MeanLight(int64_t triangle) const;
+  void Probe(const std::vector<int64_t>& triangles, int64_t* rays);
+  double Difference(int64_t triangle) const;
+  double Error(int64_t triangle, const LightScale& scale) const;
+  double Area(int64_t triangle) const;
+  uint64_t Key(int64_t triangle) const;
+  bool Receives(int64_t triangle) const;
+  int32_t PatchOf(int64_t triangle);
+  bool IsAtFloor(int64_t triangle) const;
+  bool IsPatchAtFloor(int32_t patch) const;
+
+  std::vector<ChosenPatch> ChoosePatches(double wanted, double* threshold);
+  void Remember(const std::vector<ChosenPatch>& chosen);
+  std::vector<BorderSegment> BorderOf(const std::vector<int64_t>& triangles) const;
+  std::vector<Crossing> FindCrossings(const std::vector<ChosenPatch>& chosen) const;
+  GatherPoint PlaceOf(int32_t point, const Vec3f& inside, const Vec3f& normal) const;
+  std::unordered_map<int32_t, std::array<LeafLine, 2>> FindLines(
+      const std::vector<ChosenPatch>& chosen, int64_t* rays) const;
+
+  ElementHierarchy* hierarchy_;
+  const FinalGather& gather_;
+  const uint64_t seed_;
+  GatheredPoints gathered_;
+  const float skip_;
+  RefinedMesh mesh_;
+  const int64_t firstTriangles_;
+  std::vector<Spectrum> irradiance_;  ///< per point
+  std::vector<float> variance_;       ///< per point, of the irradiance
+  /// What is found in the middle of a triangle: its squared deviation from what the corners
+  /// interpolate, and the norm of the irradiance, W/m2.
+  struct Middle {
+    double deviation = 0, light = 0;
+  };
+  std::unordered_map<uint64_t, Middle> probed_;  ///< by triangle
+  std::vector<uint8_t> isNew_;                   ///< per point: gathered in this round
+  std::vector<float> nonlinearity_;              ///< per patch
+  std::vector<Before> before_;
+  std::vector<int32_t> beforeOfPatch_;  ///< per patch: of the one it was cut from in this round; -1
+};
+
+}  // namespace lambert
