@@ -13,9 +13,11 @@ namespace {
 
 /// A group of emitters farther away than this many of its radii is taken as one.
 constexpr float kSmallBeyond = 12;
-/// A face nearer than this many of its radii is sampled by solid angle, else by area.
-constexpr float kLargeWithin = 2;
-/// Where a place on a face lies below the horizon, that many others are tried.
+/// A face nearer than this many of its radii is sampled by solid angle, and its rays choose by what
+/// they give from at least so many places together; farther away all places on it give alike.
+constexpr float kLargeWithin = 8;
+constexpr int kLeastPlaces = 8;
+/// Where all of these lie below the horizon, that many others are tried.
 constexpr int kMorePlaces = 8;
 /// Light of which more than this part comes from groups scatters without being blocked.
 constexpr float kMostGrouped = 0.2f;
@@ -37,6 +39,8 @@ Cone Narrowed(const Cone& a, const Cone& b) {
   if (a.cosine >= b.cosine) return {1, 0};
   return {a.cosine * b.cosine + a.sine * b.sine, a.sine * b.cosine - a.cosine * b.sine};
 }
+
+float Fraction(float x) { return x < 1 ? x : x - 1; }
 
 bool IsAbove(const GatherPoint& at, const Vec3f& direction) {
   return Dot(at.normal, direction) > 0 && Dot(at.geometricNormal, direction) > 0;
@@ -196,7 +200,7 @@ int DirectLight::Sources(const GatherPoint& at, Source* sources) const {
 
 // A place on a face: uniform in solid angle where it looks large, else in area. `value` is what
 // such places give, but for a factor that is the same for all of the face.
-bool DirectLight::PlaceOn(const Emitter& emitter, const GatherPoint& at, float u, float v,
+bool DirectLight::PlaceOn(const Emitter& emitter, const GatherPoint& at, const Vec2f& uv,
                           Vec3f* target, float* value) const {
   float density = 0;  // Over solid angle.
   bool isLarge =
@@ -210,7 +214,7 @@ bool DirectLight::PlaceOn(const Emitter& emitter, const GatherPoint& at, float u
     isLarge = angle > 1e-4;
     if (isLarge) {
       const Vec3d d =
-          SampleSphericalTriangle(toward[0], toward[1], toward[2], double(u), double(v));
+          SampleSphericalTriangle(toward[0], toward[1], toward[2], double(uv.x), double(uv.y));
       const Vec3d normal(emitter.normal);
       const double slope = Dot(d, normal);
       const double height = Dot(Vec3d(emitter.corners[0]) - Vec3d(at.position), normal);
@@ -220,7 +224,7 @@ bool DirectLight::PlaceOn(const Emitter& emitter, const GatherPoint& at, float u
     }
   }
   if (!isLarge) {
-    const Vec2f b = UniformTriangle(u, v);
+    const Vec2f b = UniformTriangle(uv.x, uv.y);
     *target = emitter.corners[0] + (emitter.corners[1] - emitter.corners[0]) * b.x +
               (emitter.corners[2] - emitter.corners[0]) * b.y;
     const Vec3f offset = *target - at.position;
@@ -232,6 +236,29 @@ bool DirectLight::PlaceOn(const Emitter& emitter, const GatherPoint& at, float u
   const Vec3f direction = Normalize(*target - at.position);
   *value = Dot(at.normal, direction) / density;
   return IsAbove(at, direction);
+}
+
+// One of some places on a face, by what each gives: the fewer the rays that share the face out, the
+// more places each chooses from, or what little they see would count as if all gave alike. `value`
+// is what they give in the mean.
+bool DirectLight::PickPlace(const Emitter& emitter, const GatherPoint& at, const Vec2f& uv,
+                            int rays, Random* random, Vec3f* target, float* value) const {
+  const bool areAlike =
+      LengthSquared(emitter.center - at.position) > kLargeWithin * kLargeWithin * emitter.area;
+  const int places = areAlike ? 1 : std::max(1, kLeastPlaces / rays);
+  float sum = 0;
+  for (int i = 0; i < places || (!(sum > 0) && i < places + kMorePlaces); ++i) {
+    // Evenly over the ray's share, one after the other across it.
+    Vec2f next(Fraction(uv.x + float(i) / float(places * rays)), RadicalInverse(uint32_t(i), uv.y));
+    if (i >= places) next = {random->Uniform(), random->Uniform()};
+    Vec3f place;
+    float given = 0;
+    if (!this->PlaceOn(emitter, at, next, &place, &given)) continue;
+    sum += given;
+    if (random->Uniform() * sum < given) *target = place;
+  }
+  *value = sum / float(places);
+  return sum > 0;
 }
 
 // Rays dealt out by weight, systematically: each brings an equal part of it.
@@ -263,11 +290,9 @@ Spectrum DirectLight::CastRays(const GatherPoint& at, const Source* sources, int
       const Emitter& emitter = emitters_[size_t(nodes_[size_t(face.node)].begin)];
       const float v = RadicalInverse(uint32_t(first + k), shift);
       Vec3f target;
-      bool isPlaced = this->PlaceOn(emitter, at, u, v, &target, &value);
-      for (int more = 0; more < kMorePlaces && !isPlaced; ++more) {
-        isPlaced = this->PlaceOn(emitter, at, random.Uniform(), random.Uniform(), &target, &value);
+      if (!this->PickPlace(emitter, at, {u, v}, isFace ? own : 1, &random, &target, &value)) {
+        continue;
       }
-      if (!isPlaced) continue;
       const bool isClear = !rayScene_.Occluded(at.position, target);
       *clear += isClear;
       all += value;
@@ -331,19 +356,6 @@ DirectSample DirectLight::Sample(const GatherPoint& at, int count, uint64_t seed
   DirectSample sample = this->FromEmitters(at, count, seed, rays);
   sample.irradiance += this->FromLights(at, rays);
   return sample;
-}
-
-// A few rays; more where they disagree, and where groups are not known exactly.
-Spectrum DirectLight::At(const GatherPoint& at, const DirectLightOptions& options, uint64_t seed,
-                         int64_t* rays) const {
-  const int few = options.rays, more = options.penumbraRays;
-  const DirectSample first = this->FromEmitters(at, few, seed, rays);
-  Spectrum light = first.irradiance;
-  if (more > 0 && first.clear > 0 && (first.clear < 1 || first.isScattered)) {
-    const DirectSample rest = this->FromEmitters(at, more, HashBits(seed, 2), rays);
-    light = (light * float(few) + rest.irradiance * float(more)) / float(few + more);
-  }
-  return light + this->FromLights(at, rays);
 }
 
 }  // namespace lambert

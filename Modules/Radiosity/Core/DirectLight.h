@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "Common/Core/Random.h"
 #include "Scene/Core/Scene.h"
 #include "Visibility/Core/RayScene.h"
 
@@ -17,13 +18,6 @@ struct GatherPoint {
   Vec3f normal;
   Vec3f geometricNormal;
   float area = 0;  ///< m2 that it stands for: points of more get more rays; 0 where all are alike
-};
-
-struct DirectLightOptions {
-  int rays = 8;  ///< to all emitting faces together, [1, inf); where nothing is in the way the
-                 ///< answer is exact with any number
-  int penumbraRays = 24;  ///< more of them where some of the first are blocked and some are not,
-                          ///< [0, inf)
 };
 
 /// What a number of rays found.
@@ -41,11 +35,10 @@ class DirectLight {
   /// Both by reference.
   DirectLight(const Scene& scene, const RayScene& rayScene);
 
-  /// Irradiance at a point, W/m2. It depends on the point, the options and the seed alone. Adds the
-  /// rays cast to `rays`.
-  Spectrum At(const GatherPoint& at, const DirectLightOptions& options, uint64_t seed,
-              int64_t* rays) const;
-  /// The same with `count` rays to all emitting faces together, whatever they find.
+  /// Irradiance at a point, W/m2, with `count` rays to all emitting faces together, [1, inf); where
+  /// nothing is in the way of a face its light is exact with any number. It depends on the point,
+  /// the count and the seed alone. More rays that are cast only where these find something bring
+  /// too little light to places that little of it reaches. Adds the rays cast to `rays`.
   DirectSample Sample(const GatherPoint& at, int count, uint64_t seed, int64_t* rays) const;
 
  private:
@@ -80,8 +73,10 @@ class DirectLight {
   int Sources(const GatherPoint& at, Source* sources) const;
   Source Weigh(int32_t node, const GatherPoint& at) const;
   Source PickFace(const Source& source, const GatherPoint& at, float* u, float* chance) const;
-  bool PlaceOn(const Emitter& emitter, const GatherPoint& at, float u, float v, Vec3f* target,
+  bool PlaceOn(const Emitter& emitter, const GatherPoint& at, const Vec2f& uv, Vec3f* target,
                float* value) const;
+  bool PickPlace(const Emitter& emitter, const GatherPoint& at, const Vec2f& uv, int rays,
+                 Random* random, Vec3f* target, float* value) const;
   Spectrum CastRays(const GatherPoint& at, const Source* sources, int count, float total, int rays,
                     uint64_t seed, int* clear) const;
   DirectSample FromEmitters(const GatherPoint& at, int rays, uint64_t seed, int64_t* cast) const;

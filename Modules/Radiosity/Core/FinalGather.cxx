@@ -31,7 +31,8 @@ constexpr float kSameWay = 0.8f;
 constexpr int kMostBounces = 2;
 /// A leaf gathers with at least and at most these multiples of the rays of one of mean area.
 constexpr double kLeastRaysOfLeaf = 0.5, kMostRaysOfLeaf = 64;
-constexpr DirectLightOptions kDirectAtLeaves{4, 8};
+/// Rays to the emitting faces from a sample of a leaf.
+constexpr int kDirectRaysAtLeaves = 12;
 /// Where less than this part of the reflected light is lost in a bounce, nothing is known of its
 /// balance; one step changes it by no more than this factor.
 constexpr double kLeastLost = 0.01, kMostBalance = 2;
@@ -126,9 +127,10 @@ FinalGather::LeafLight FinalGather::GatherAtLeaf(int32_t leaf, int rays, uint64_
   LeafLight mean;
   for (size_t k = 0; k < kSamplesPerElement; ++k) {
     // Straight from the sources it receives the same in every round.
-    mean.direct[k] = hasGathered_[size_t(leaf)]
-                         ? sampleDirect_[size_t(leaf)][k]
-                         : direct_.At(points[k], kDirectAtLeaves, HashBits(seed, k), cast);
+    mean.direct[k] =
+        hasGathered_[size_t(leaf)]
+            ? sampleDirect_[size_t(leaf)][k]
+            : direct_.Sample(points[k], kDirectRaysAtLeaves, HashBits(seed, k), cast).irradiance;
     mean.atSample[k] = sums[k].Mean() + mean.direct[k];
     mean.reflectedAtSample[k] = sums[k].fromLeaves / float(bounce.count);
     mean.irradiance += mean.atSample[k] / float(kSamplesPerElement);
@@ -216,7 +218,7 @@ Spectrum FinalGather::Brightest() const {
   return brightest;
 }
 
-void FinalGather::GatherAtLeaves(int rays, uint64_t seed, int64_t* cast) {
+void FinalGather::GatherAtLeaves(int rays, double share, uint64_t seed, int64_t* cast) {
   // The leaves that reflect, and their mean area.
   std::vector<int32_t> leaves;
   double area = 0;
@@ -244,15 +246,19 @@ void FinalGather::GatherAtLeaves(int rays, uint64_t seed, int64_t* cast) {
   // As a whole they reflect what they receive; few rays may find more than there is.
   const Spectrum factor = this->BalancingFactor(leaves, gathered);
   const Spectrum most = this->Furnace();
+  const auto joined = [&](const Spectrum& before, const Spectrum& all, const Spectrum& reflected) {
+    const Spectrum now = Smaller(most, all - reflected + factor * reflected);
+    return before * float(1 - share) + now * float(share);
+  };
   for (size_t i = 0; i < leaves.size(); ++i) {
+    const size_t leaf = size_t(leaves[i]);
     const LeafLight& g = gathered[i];
-    this->Receive(leaves[i], Smaller(most, g.irradiance - g.reflected + factor * g.reflected));
-    hasGathered_[size_t(leaves[i])] = 1;
-    sampleDirect_[size_t(leaves[i])] = g.direct;
+    this->Receive(leaves[i], joined(polygonIrradiance_[leaf], g.irradiance, g.reflected));
+    hasGathered_[leaf] = 1;
+    sampleDirect_[leaf] = g.direct;
     for (size_t k = 0; k < kSamplesPerElement; ++k) {
-      const Spectrum& reflected = g.reflectedAtSample[k];
-      sampleIrradiance_[size_t(leaves[i])][k] =
-          Smaller(most, g.atSample[k] - reflected + factor * reflected);
+      sampleIrradiance_[leaf][k] =
+          joined(sampleIrradiance_[leaf][k], g.atSample[k], g.reflectedAtSample[k]);
     }
     *cast += castBy[i];
   }
@@ -312,18 +318,20 @@ FinalGather::Radiosity FinalGather::Met(const Vec3f& from, const Vec3f& directio
   const Spectrum ofLeaf = reflectance * this->IrradianceOfLeaf(leaf, place, normal);
   if (bounces == 0 || hit.distance >= kNear * element.radius) return {{}, ofLeaf, hit.distance};
 
-  // One direction stands for all of them: what it finds is taken up to some times the mean.
+  // One direction stands for all of them: what it finds is taken up to some times what the leaf or
+  // this place on it has, whichever is more.
   const GatherPoint at{place, normal, normal};
   Vec3f u, v;
   CoordinateSystem(normal, &u, &v);
   const Vec3f d = CosineHemisphere(random->Uniform(), random->Uniform());
-  const Spectrum direct = direct_.At(at, {1, 0}, random->Bits(), rays);
+  const Spectrum direct = direct_.Sample(at, 1, random->Bits(), rays).irradiance;
   const Radiosity next =
       this->Met(place, u * d.x + v * d.y + normal * d.z, random, bounces - 1, rays);
   Radiosity found{reflectance * (direct + next.fromSources), reflectance * next.fromLeaves,
                   hit.distance};
   const float brightness = (found.fromSources + found.fromLeaves).Mean();
-  const float most = kMostOfLeaf * ofLeaf.Mean();
+  const Spectrum inTheMean = reflectance * polygonIrradiance_[size_t(leaf)];
+  const float most = kMostOfLeaf * std::max(ofLeaf.Mean(), inTheMean.Mean());
   if (brightness > most) {
     found.fromSources *= most / brightness;
     found.fromLeaves *= most / brightness;

@@ -66,9 +66,12 @@ class FinalGather {
   /// together give to a point is never more. Infinite as that of the furnace.
   Spectrum Brightest() const;
 
-  /// Replaces what the leaves received over links by what they gather, one bounce; `rays` over the
-  /// hemisphere of a leaf of mean area, in proportion to area. Adds the rays cast to `cast`.
-  void GatherAtLeaves(int rays, uint64_t seed, int64_t* cast);
+  /// Replaces what the leaves received, at first over links, by what they gather, one bounce;
+  /// `rays` over the hemisphere of a leaf of mean area, in proportion to area. `share` of what they
+  /// have then is new, (0, 1]; less than 1 only where they have gathered before: shares of 1/2,
+  /// 1/3, ... leave the mean of all rounds from the one before them on. Adds the rays cast to
+  /// `cast`.
+  void GatherAtLeaves(int rays, double share, uint64_t seed, int64_t* cast);
 
  private:
   /// Radiosity of what a ray meets, emitters left out, W/m2; of the sky pi times its radiance.

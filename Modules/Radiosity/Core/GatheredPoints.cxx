@@ -19,10 +19,8 @@ constexpr int kFirstDirectRays = 4;
 constexpr double kMostByArea = 16;
 /// Rays to emitters that a point may be given at once, where it is asked for more.
 constexpr int kMostDirectRays = 256;
-/// Neighbours whose shadows tell of a point's own, and how far the parts of light that they see may
-/// differ.
+/// Neighbours whose shadows tell of a point's own.
 constexpr int kShadowNeighbours = 12;
-constexpr float kSameShadow = 0.05f;
 /// A point's scatter counts in this part by the area that it stands for, else as one of all points.
 constexpr double kByArea = 0.75;
 /// Rounds of more rays; in one a point gets up to this many times the rays it had.
@@ -99,15 +97,19 @@ void GatheredPoints::GatherNew(int32_t first, int64_t* rays, const ProgressCallb
   }
 }
 
-// Few rays are enough in full light and in full shadow, where all neighbours are there too.
+// Few rays are enough in full light and in full shadow, where all neighbours are there too. Its own
+// rays do not decide: those that happened to find a little light would be followed by more that
+// find less, those that did not would stay dark, and light would be lost.
 bool GatheredPoints::IsInPenumbra(int32_t index, const SampleNeighbours& neighbours) const {
-  const float own = records_[size_t(index)].direct.clear;
-  if (own > 0 && own < 1) return true;
   const int32_t* begin = neighbours.begin(index);
   const int32_t* end = std::min(neighbours.end(index), begin + kShadowNeighbours);
-  return std::any_of(begin, end, [&](int32_t other) {
-    return std::abs(records_[size_t(other)].direct.clear - own) > kSameShadow;
-  });
+  if (begin == end) return true;
+  float least = 1, most = 0;
+  for (const int32_t* other = begin; other != end; ++other) {
+    least = std::min(least, records_[size_t(*other)].direct.clear);
+    most = std::max(most, records_[size_t(*other)].direct.clear);
+  }
+  return most > 0 && least < 1;
 }
 
 // Casts `more` rays for each record from `first` on, and joins what they find to what is known.

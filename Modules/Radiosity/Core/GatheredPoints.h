@@ -16,7 +16,7 @@ struct GatheredPointsOptions {
   int firstRays = 4;      ///< over the hemisphere of every point, a power of two
   int mostRays = 1024;    ///< over that of any, a power of two
   int directRays = 16;    ///< to the emitting faces, [1, inf), where many groups of them give light
-  int penumbraRays = 24;  ///< more of them where a point or its neighbours are partly in shadow
+  int penumbraRays = 24;  ///< more of them where the neighbours of a point are partly in shadow
   double noise = 0.02;    ///< relative RMS error that the scatter of rays may leave, (0, 1]
   uint64_t seed = 1;
 };
@@ -42,9 +42,9 @@ class GatheredPoints {
   /// Cancelled.
   std::vector<Light> At(const std::vector<Point>& points, int64_t* rays,
                         const ProgressCallback& progress = {});
-  /// More rays for the points asked so far: those partly in shadow get as many to emitters as they
-  /// had, and the scatter of the others falls to `noise`, a relative RMS error, (0, 1]; that goes
-  /// for points asked later too. Adds the rays cast to `rays`. Throws Cancelled.
+  /// More rays for the points asked so far: those whose neighbours are partly in shadow get as many
+  /// to emitters as they had, and the scatter of the others falls to `noise`, a relative RMS error,
+  /// (0, 1]; that goes for points asked later too. Adds the rays cast to `rays`. Throws Cancelled.
   void Improve(double noise, int64_t* rays, const ProgressCallback& progress = {});
 
  private:

@@ -7,8 +7,9 @@ namespace lambert {
 
 namespace {
 
-/// Bounces that leaves gather before points do.
-constexpr uint64_t kLeafRounds = 4;
+/// Bounces that leaves gather before points do: the first forget what links made of the light, the
+/// mean of the others stays.
+constexpr uint64_t kForgettingRounds = 5, kLeafRounds = 8;
 
 }  // namespace
 
@@ -20,18 +21,23 @@ struct GatheredSolution::Implementation {
         leafRays(options.leafRays),
         seed(options.points.seed),
         rays(rays_) {
-    // What links made of the light is forgotten over some bounces; the last decides how it
-    // scatters.
     for (uint64_t round = 1; round <= kLeafRounds && leafRays > 0; ++round) {
-      gather.GatherAtLeaves(round == kLeafRounds ? leafRays : leafRays / 2, HashBits(seed, round),
-                            rays);
+      this->GatherAtLeaves(round >= kForgettingRounds ? leafRays : leafRays / 2,
+                           round <= kForgettingRounds, HashBits(seed, round));
     }
     mesh.reset(new GatheredMesh(hierarchy, gather, rayScene.Epsilon(), litSides, options.points));
+  }
+
+  /// Joins what they find to what they have, by rays; or forgets that.
+  void GatherAtLeaves(int count, bool forgets, uint64_t roundSeed) {
+    joinedRays = forgets ? count : joinedRays + count;
+    gather.GatherAtLeaves(count, double(count) / joinedRays, roundSeed, rays);
   }
 
   FinalGather gather;
   std::unique_ptr<GatheredMesh> mesh;
   int leafRays;
+  int joinedRays = 0;  ///< of the rounds that leaves have the mean of
   const uint64_t seed;
   uint64_t calls = 0;  ///< of Refine
   int64_t* rays;
@@ -47,10 +53,9 @@ GatheredSolution::~GatheredSolution() = default;
 void GatheredSolution::Refine(double error, double noise, int rounds,
                               const ProgressCallback& progress) {
   Implementation& self = *implementation_;
-  if (self.calls++ > 0) {
+  if (self.calls++ > 0 && self.leafRays > 0) {
     self.leafRays *= 2;
-    self.gather.GatherAtLeaves(self.leafRays, HashBits(self.seed, kLeafRounds + self.calls),
-                               self.rays);
+    self.GatherAtLeaves(self.leafRays, false, HashBits(self.seed, kLeafRounds + self.calls));
   }
   self.mesh->Improve(noise, self.rays, progress);
   self.mesh->GatherAtPoints(self.rays, progress);

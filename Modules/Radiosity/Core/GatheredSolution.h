@@ -16,8 +16,8 @@
 namespace lambert {
 
 struct GatheredSolutionOptions {
-  /// Rays over the hemisphere of a leaf of mean area in the last of its rounds; 0: leaves keep what
-  /// they had.
+  /// Rays over the hemisphere of a leaf of mean area in each of the rounds that it has the mean of
+  /// at first; 0: leaves keep what they had.
   int leafRays = 8;
   GatheredPointsOptions points;
 };

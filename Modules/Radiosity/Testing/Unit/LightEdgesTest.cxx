@@ -36,7 +36,7 @@ struct ScreenedFloor {
     const auto at = [](float x, float y) { return GatherPoint{{x, y, 0}, {0, 0, 1}, {0, 0, 1}}; };
     const auto lightAt = [&](const GatherPoint& point) {
       int64_t rays = 0;
-      return gather.Direct().At(point, {256, 0}, 1, &rays);
+      return gather.Direct().Sample(point, 256, 1, &rays).irradiance;
     };
     std::vector<LitSegment> segments;
     for (const auto& [a, b] :
