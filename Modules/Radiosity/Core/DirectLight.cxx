@@ -13,10 +13,12 @@ namespace {
 
 /// A group of emitters farther away than this many of its radii is taken as one.
 constexpr float kSmallBeyond = 12;
-/// A face nearer than this many of its radii is sampled by solid angle, and its rays choose by what
-/// they give from at least so many places together; farther away all places on it give alike.
-constexpr float kLargeWithin = 8;
+/// A face nearer than this many of its longest edges is sampled by solid angle, else by area.
+constexpr float kLargeWithin = 1.5f;
+/// The rays to a face choose by what they give from at least so many places together, where it is
+/// nearer than this many of its longest edges; farther away all places on it give alike.
 constexpr int kLeastPlaces = 8;
+constexpr float kAlikeBeyond = 5;
 /// Where all of these lie below the horizon, that many others are tried.
 constexpr int kMorePlaces = 8;
 /// Light of which more than this part comes from groups scatters without being blocked.
@@ -39,6 +41,8 @@ Cone Narrowed(const Cone& a, const Cone& b) {
   if (a.cosine >= b.cosine) return {1, 0};
   return {a.cosine * b.cosine + a.sine * b.sine, a.sine * b.cosine - a.cosine * b.sine};
 }
+
+float Square(float x) { return x * x; }
 
 float Fraction(float x) { return x < 1 ? x : x - 1; }
 
@@ -71,6 +75,7 @@ void DirectLight::Add(int64_t face, Side side, const TriangleMesh& mesh) {
   emitter.normal = Normalize(doubleArea);
   emitter.center = (c[0] + c[1] + c[2]) / 3.f;
   emitter.area = 0.5f * Length(doubleArea);
+  emitter.longest = std::max({Length(c[1] - c[0]), Length(c[2] - c[1]), Length(c[0] - c[2])});
   emitter.power = emitter.area * emitter.emittance.Mean();
   if (emitter.power > 0) emitters_.push_back(emitter);
 }
@@ -204,7 +209,7 @@ bool DirectLight::PlaceOn(const Emitter& emitter, const GatherPoint& at, const V
                           Vec3f* target, float* value) const {
   float density = 0;  // Over solid angle.
   bool isLarge =
-      LengthSquared(emitter.center - at.position) < kLargeWithin * kLargeWithin * emitter.area;
+      LengthSquared(emitter.center - at.position) < Square(kLargeWithin * emitter.longest);
   if (isLarge) {
     Vec3d toward[3];
     for (int c = 0; c < 3; ++c) {
@@ -244,7 +249,7 @@ bool DirectLight::PlaceOn(const Emitter& emitter, const GatherPoint& at, const V
 bool DirectLight::PickPlace(const Emitter& emitter, const GatherPoint& at, const Vec2f& uv,
                             int rays, Random* random, Vec3f* target, float* value) const {
   const bool areAlike =
-      LengthSquared(emitter.center - at.position) > kLargeWithin * kLargeWithin * emitter.area;
+      LengthSquared(emitter.center - at.position) > Square(kAlikeBeyond * emitter.longest);
   const int places = areAlike ? 1 : std::max(1, kLeastPlaces / rays);
   float sum = 0;
   for (int i = 0; i < places || (!(sum > 0) && i < places + kMorePlaces); ++i) {

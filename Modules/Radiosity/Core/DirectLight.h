@@ -49,7 +49,8 @@ class DirectLight {
     Vec3f normal;
     Vec3f center;
     float area = 0;
-    float power = 0;  ///< W, mean of the bands
+    float longest = 0;  ///< edge, m
+    float power = 0;    ///< W, mean of the bands
   };
   struct Node {
     Vec3f center;
