@@ -12,39 +12,55 @@ inline double SolidAngle(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   return 2 * std::atan2(std::abs(Dot(a, Cross(b, c))), 1 + Dot(a, b) + Dot(b, c) + Dot(c, a));
 }
 
-/// A direction uniform over the spherical triangle of the unit vectors a, b, c (Arvo 1995, in the
-/// form of pbrt's fourth edition, section 6.5.4). The triangle must not be degenerate; u0, u1 in
-/// [0,1).
-inline Vec3d SampleSphericalTriangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, double u0,
-                                     double u1) {
-  const auto angleBetween = [](const Vec3d& v, const Vec3d& w) {
-    return std::atan2(Length(Cross(v, w)), Dot(v, w));
-  };
-  const auto perpendicular = [](const Vec3d& v, const Vec3d& w) {
-    return Normalize(v - w * Dot(v, w));
-  };
-  // Interior angles; their sum less pi is the solid angle, of which u0 takes a share.
-  const Vec3d ab = Normalize(Cross(a, b)), bc = Normalize(Cross(b, c)), ca = Normalize(Cross(c, a));
-  const double alpha = angleBetween(ab, -ca);
-  const double sum = alpha + angleBetween(bc, -ab) + angleBetween(ca, -bc);
-  const double share = kPi + u0 * (sum - kPi);
-
-  // The corner c moves along the edge ca to cp, so that the triangle a, b, cp has that share.
-  const double cosAlpha = std::cos(alpha), sinAlpha = std::sin(alpha);
-  const double sinPhi = std::sin(share) * cosAlpha - std::cos(share) * sinAlpha;
-  const double cosPhi = std::cos(share) * cosAlpha + std::sin(share) * sinAlpha;
-  const double k1 = cosPhi + cosAlpha, k2 = sinPhi - sinAlpha * Dot(a, b);
-  const double denominator = (k2 * sinPhi + k1 * cosPhi) * sinAlpha;
-  double cosB = 1;
-  if (denominator != 0) {
-    cosB = (k2 + (k2 * cosPhi - k1 * sinPhi) * cosAlpha) / denominator;
-    cosB = std::min(1.0, std::max(-1.0, cosB));
+/// Directions uniform over the spherical triangle of the unit vectors a, b, c (Arvo 1995, in the
+/// form of pbrt's fourth edition, section 6.5.4). The triangle must not be degenerate.
+class SphericalTriangle {
+ public:
+  SphericalTriangle() = default;
+  SphericalTriangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) : a_(a), b_(b) {
+    // Interior angles; their sum less pi is the solid angle, of which a sample takes a share.
+    const Vec3d ab = Normalize(Cross(a, b)), bc = Normalize(Cross(b, c)),
+                ca = Normalize(Cross(c, a));
+    const double alpha = Angle(ab, -ca);
+    excess_ = alpha + Angle(bc, -ab) + Angle(ca, -bc) - kPi;
+    cosAlpha_ = std::cos(alpha);
+    sinAlpha_ = std::sin(alpha);
+    towardC_ = Perpendicular(c, a);
+    cosAB_ = Dot(a, b);
   }
-  const Vec3d cp = a * cosB + perpendicular(c, a) * std::sqrt(1 - cosB * cosB);
 
-  // Along the arc from b to cp, uniform in the cosine.
-  const double cosTheta = 1 - u1 * (1 - Dot(cp, b));
-  return b * cosTheta + perpendicular(cp, b) * std::sqrt(std::max(0.0, 1 - cosTheta * cosTheta));
-}
+  /// u0, u1 in [0,1).
+  Vec3d Sample(double u0, double u1) const {
+    // The corner c moves along the edge ca to cp, so that the triangle a, b, cp has its share.
+    const double share = kPi + u0 * excess_, sinShare = std::sin(share), cosShare = std::cos(share);
+    const double sinPhi = sinShare * cosAlpha_ - cosShare * sinAlpha_;
+    const double cosPhi = cosShare * cosAlpha_ + sinShare * sinAlpha_;
+    const double k1 = cosPhi + cosAlpha_, k2 = sinPhi - sinAlpha_ * cosAB_;
+    const double denominator = (k2 * sinPhi + k1 * cosPhi) * sinAlpha_;
+    double cosB = 1;
+    if (denominator != 0) {
+      cosB = (k2 + (k2 * cosPhi - k1 * sinPhi) * cosAlpha_) / denominator;
+      cosB = std::min(1.0, std::max(-1.0, cosB));
+    }
+    const Vec3d cp = a_ * cosB + towardC_ * std::sqrt(1 - cosB * cosB);
+
+    // Along the arc from b to cp, uniform in the cosine.
+    const double cosTheta = 1 - u1 * (1 - Dot(cp, b_));
+    return b_ * cosTheta +
+           Perpendicular(cp, b_) * std::sqrt(std::max(0.0, 1 - cosTheta * cosTheta));
+  }
+
+ private:
+  static double Angle(const Vec3d& v, const Vec3d& w) {
+    return std::atan2(Length(Cross(v, w)), Dot(v, w));
+  }
+  static Vec3d Perpendicular(const Vec3d& v, const Vec3d& w) {
+    return Normalize(v - w * Dot(v, w));
+  }
+
+  Vec3d a_, b_;
+  Vec3d towardC_;  ///< unit, perpendicular to a
+  double excess_ = 0, cosAlpha_ = 1, sinAlpha_ = 0, cosAB_ = 1;
+};
 
 }  // namespace lambert

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "Common/Core/PolygonIrradiance.h"
 #include "Common/Core/Random.h"
-#include "Common/Core/SphericalTriangle.h"
 
 namespace lambert {
 
@@ -19,6 +19,8 @@ constexpr float kLargeWithin = 1.5f;
 /// nearer than this many of its longest edges; farther away all places on it give alike.
 constexpr int kLeastPlaces = 8;
 constexpr float kAlikeBeyond = 5;
+/// A face that looks smaller than this is sampled by area, sr.
+constexpr double kLeastSolidAngle = 1e-4;
 /// Where all of these lie below the horizon, that many others are tried.
 constexpr int kMorePlaces = 8;
 /// Light of which more than this part comes from groups scatters without being blocked.
@@ -203,32 +205,34 @@ int DirectLight::Sources(const GatherPoint& at, Source* sources) const {
   return count;
 }
 
+DirectLight::FaceView::FaceView(const Emitter& emitter_, const GatherPoint& at_)
+    : emitter(emitter_), at(at_) {
+  const float squared = LengthSquared(emitter.center - at.position);
+  areAlike = squared > Square(kAlikeBeyond * emitter.longest);
+  if (squared > Square(kLargeWithin * emitter.longest)) return;
+  Vec3d toward[3];
+  for (int c = 0; c < 3; ++c) {
+    toward[c] = Normalize(Vec3d(emitter.corners[c]) - Vec3d(at.position));
+  }
+  const double angle = SolidAngle(toward[0], toward[1], toward[2]);
+  if (!(angle > kLeastSolidAngle)) return;
+  solidAngle = float(angle);
+  triangle = SphericalTriangle(toward[0], toward[1], toward[2]);
+}
+
 // A place on a face: uniform in solid angle where it looks large, else in area. `value` is what
 // such places give, but for a factor that is the same for all of the face.
-bool DirectLight::PlaceOn(const Emitter& emitter, const GatherPoint& at, const Vec2f& uv,
-                          Vec3f* target, float* value) const {
+bool DirectLight::FaceView::Place(const Vec2f& uv, Vec3f* target, float* value) const {
   float density = 0;  // Over solid angle.
-  bool isLarge =
-      LengthSquared(emitter.center - at.position) < Square(kLargeWithin * emitter.longest);
-  if (isLarge) {
-    Vec3d toward[3];
-    for (int c = 0; c < 3; ++c) {
-      toward[c] = Normalize(Vec3d(emitter.corners[c]) - Vec3d(at.position));
-    }
-    const double angle = SolidAngle(toward[0], toward[1], toward[2]);
-    isLarge = angle > 1e-4;
-    if (isLarge) {
-      const Vec3d d =
-          SampleSphericalTriangle(toward[0], toward[1], toward[2], double(uv.x), double(uv.y));
-      const Vec3d normal(emitter.normal);
-      const double slope = Dot(d, normal);
-      const double height = Dot(Vec3d(emitter.corners[0]) - Vec3d(at.position), normal);
-      if (!(slope * height > 0)) return false;
-      *target = Vec3f(Vec3d(at.position) + d * (height / slope));
-      density = float(1 / angle);
-    }
-  }
-  if (!isLarge) {
+  if (solidAngle > 0) {
+    const Vec3d d = triangle.Sample(double(uv.x), double(uv.y));
+    const Vec3d normal(emitter.normal);
+    const double slope = Dot(d, normal);
+    const double height = Dot(Vec3d(emitter.corners[0]) - Vec3d(at.position), normal);
+    if (!(slope * height > 0)) return false;
+    *target = Vec3f(Vec3d(at.position) + d * (height / slope));
+    density = 1 / solidAngle;
+  } else {
     const Vec2f b = UniformTriangle(uv.x, uv.y);
     *target = emitter.corners[0] + (emitter.corners[1] - emitter.corners[0]) * b.x +
               (emitter.corners[2] - emitter.corners[0]) * b.y;
@@ -246,10 +250,8 @@ bool DirectLight::PlaceOn(const Emitter& emitter, const GatherPoint& at, const V
 // One of some places on a face, by what each gives: the fewer the rays that share the face out, the
 // more places each chooses from, or what little they see would count as if all gave alike. `value`
 // is what they give in the mean.
-bool DirectLight::PickPlace(const Emitter& emitter, const GatherPoint& at, const Vec2f& uv,
-                            int rays, Random* random, Vec3f* target, float* value) const {
-  const bool areAlike =
-      LengthSquared(emitter.center - at.position) > Square(kAlikeBeyond * emitter.longest);
+bool DirectLight::FaceView::PickPlace(const Vec2f& uv, int rays, Random* random, Vec3f* target,
+                                      float* value) const {
   const int places = areAlike ? 1 : std::max(1, kLeastPlaces / rays);
   float sum = 0;
   for (int i = 0; i < places || (!(sum > 0) && i < places + kMorePlaces); ++i) {
@@ -258,7 +260,7 @@ bool DirectLight::PickPlace(const Emitter& emitter, const GatherPoint& at, const
     if (i >= places) next = {random->Uniform(), random->Uniform()};
     Vec3f place;
     float given = 0;
-    if (!this->PlaceOn(emitter, at, next, &place, &given)) continue;
+    if (!this->Place(next, &place, &given)) continue;
     sum += given;
     if (random->Uniform() * sum < given) *target = place;
   }
@@ -286,18 +288,21 @@ Spectrum DirectLight::CastRays(const GatherPoint& at, const Source* sources, int
     if (own == 0) continue;
 
     // What of them is clear; on a face each place counts by what it gives.
+    const auto viewOf = [&](const Source& face) {
+      return FaceView(emitters_[size_t(nodes_[size_t(face.node)].begin)], at);
+    };
     const bool isFace = nodes_[size_t(source.node)].second < 0;
+    std::optional<FaceView> view;
+    if (isFace) view.emplace(viewOf(source));
     float all = 0, open = 0;
     for (int k = 0; k < own; ++k) {
       float u = (float(k) + random.Uniform()) / float(own), chance = 1, value = 0;
       const Source face = isFace ? source : this->PickFace(source, at, &u, &chance);
       if (!(face.weight > 0)) continue;
-      const Emitter& emitter = emitters_[size_t(nodes_[size_t(face.node)].begin)];
+      if (!isFace) view.emplace(viewOf(face));
       const float v = RadicalInverse(uint32_t(first + k), shift);
       Vec3f target;
-      if (!this->PickPlace(emitter, at, {u, v}, isFace ? own : 1, &random, &target, &value)) {
-        continue;
-      }
+      if (!view->PickPlace({u, v}, isFace ? own : 1, &random, &target, &value)) continue;
       const bool isClear = !rayScene_.Occluded(at.position, target);
       *clear += isClear;
       all += value;

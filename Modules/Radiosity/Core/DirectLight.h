@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "Common/Core/Random.h"
+#include "Common/Core/SphericalTriangle.h"
 #include "Scene/Core/Scene.h"
 #include "Visibility/Core/RayScene.h"
 
@@ -52,6 +53,18 @@ class DirectLight {
     float longest = 0;  ///< edge, m
     float power = 0;    ///< W, mean of the bands
   };
+  /// A face as seen from a point.
+  struct FaceView {
+    const Emitter& emitter;
+    const GatherPoint& at;
+    bool areAlike = false;  ///< all places on it give alike
+    float solidAngle = 0;   ///< sr; 0 where places are chosen by area
+    SphericalTriangle triangle;
+
+    FaceView(const Emitter& emitter, const GatherPoint& at);
+    bool Place(const Vec2f& uv, Vec3f* target, float* value) const;
+    bool PickPlace(const Vec2f& uv, int rays, Random* random, Vec3f* target, float* value) const;
+  };
   struct Node {
     Vec3f center;
     float radius = 0;
@@ -74,10 +87,6 @@ class DirectLight {
   int Sources(const GatherPoint& at, Source* sources) const;
   Source Weigh(int32_t node, const GatherPoint& at) const;
   Source PickFace(const Source& source, const GatherPoint& at, float* u, float* chance) const;
-  bool PlaceOn(const Emitter& emitter, const GatherPoint& at, const Vec2f& uv, Vec3f* target,
-               float* value) const;
-  bool PickPlace(const Emitter& emitter, const GatherPoint& at, const Vec2f& uv, int rays,
-                 Random* random, Vec3f* target, float* value) const;
   Spectrum CastRays(const GatherPoint& at, const Source* sources, int count, float total, int rays,
                     uint64_t seed, int* clear) const;
   DirectSample FromEmitters(const GatherPoint& at, int rays, uint64_t seed, int64_t* cast) const;

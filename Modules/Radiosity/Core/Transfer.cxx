@@ -83,9 +83,8 @@ Vec3f SolidAngleTarget(const ElementHierarchy& hierarchy, const Element& source,
   while (triangle + 1 < count && left >= angles[triangle]) left -= angles[triangle++];
   const double share = angles[triangle] > 0 ? std::min(1.0, left / angles[triangle]) : 0;
   if (!(angles[triangle] > 1e-9)) return source.samples[size_t(k)].position;
-  const Vec3d direction =
-      SampleSphericalTriangle(toward[0], toward[triangle - 1], toward[triangle], share,
-                              double(RadicalInverse(uint32_t(k), 0.25f)));
+  const Vec3d direction = SphericalTriangle(toward[0], toward[triangle - 1], toward[triangle])
+                              .Sample(share, double(RadicalInverse(uint32_t(k), 0.25f)));
 
   // To where it meets the polygon's plane.
   const Vec3d normal(source.axis);

@@ -178,7 +178,7 @@ EmitterTree::Sample EmitterTree::Pick(const Vec3f& position, const Vec3f& normal
 
   // A place on it, uniform over solid angle where that is more than a speck.
   if (const SphericalCorners corners(e, position); corners.SuitsSampling()) {
-    const Vec3d w = SampleSphericalTriangle(corners.a, corners.b, corners.c, u[1], u[2]);
+    const Vec3d w = SphericalTriangle(corners.a, corners.b, corners.c).Sample(u[1], u[2]);
     sample.direction = Vec3f(Normalize(w));
     const double height = Dot(Vec3d(e.normal), Vec3d(e.corners[0]) - Vec3d(position));
     sample.distance = float(height / Dot(Vec3d(e.normal), w));
