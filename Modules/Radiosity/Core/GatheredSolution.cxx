@@ -39,7 +39,7 @@ struct GatheredSolution::Implementation {
   int leafRays;
   int joinedRays = 0;  ///< of the rounds that leaves have the mean of
   const uint64_t seed;
-  uint64_t calls = 0;  ///< of Refine
+  uint64_t calls = 0;  ///< of Gather
   int64_t* rays;
 };
 
@@ -50,8 +50,7 @@ GatheredSolution::GatheredSolution(ElementHierarchy* hierarchy, ElementLight* li
 
 GatheredSolution::~GatheredSolution() = default;
 
-void GatheredSolution::Refine(double error, double noise, int rounds,
-                              const ProgressCallback& progress) {
+void GatheredSolution::Gather(double noise, const ProgressCallback& progress) {
   Implementation& self = *implementation_;
   if (self.calls++ > 0 && self.leafRays > 0) {
     self.leafRays *= 2;
@@ -59,12 +58,15 @@ void GatheredSolution::Refine(double error, double noise, int rounds,
   }
   self.mesh->Improve(noise, self.rays, progress);
   self.mesh->GatherAtPoints(self.rays, progress);
-  for (int round = 0; round < rounds; ++round) {
-    self.mesh->LearnNonlinearity();
-    self.mesh->ProbeMiddles(error, self.rays);
-    if (!self.mesh->CutTriangles(error, self.rays)) break;
-    self.mesh->GatherAtPoints(self.rays, progress);
-  }
+}
+
+bool GatheredSolution::Cut(double error, const ProgressCallback& progress) {
+  Implementation& self = *implementation_;
+  self.mesh->LearnNonlinearity();
+  self.mesh->ProbeMiddles(error, self.rays);
+  if (!self.mesh->CutTriangles(error, self.rays)) return false;
+  self.mesh->GatherAtPoints(self.rays, progress);
+  return true;
 }
 
 RadiositySolution GatheredSolution::Deliver() const { return implementation_->mesh->Deliver(); }

@@ -22,7 +22,7 @@ struct GatheredSolutionOptions {
   GatheredPointsOptions points;
 };
 
-/// Construct, Refine as often as wanted, Deliver.
+/// Construct, Gather, Cut as often as wanted, Deliver.
 class GatheredSolution {
  public:
   /// Gathers at the leaves, so that what points see there is not what links made of it; `light`
@@ -32,11 +32,13 @@ class GatheredSolution {
                    int64_t* rays);
   ~GatheredSolution();
 
-  /// Gathers at the points until rays scatter by about `noise`, then cuts triangles and gathers at
-  /// their points in up to `rounds` rounds, until interpolation leaves about `error`; both are
-  /// relative RMS errors, (0, 1]. Called again, leaves and points get more rays first. Throws
+  /// Gathers at the points until rays scatter by about `noise`, a relative RMS error, (0, 1].
+  /// Called again, leaves get more rays first, and points that have light do. Throws Cancelled.
+  void Gather(double noise, const ProgressCallback& progress = {});
+  /// Cuts triangles where interpolation leaves more than about `error`, a relative RMS error, (0,
+  /// 1], and gathers at their points; false where it leaves no more, or nothing can be cut. Throws
   /// Cancelled.
-  void Refine(double error, double noise, int rounds, const ProgressCallback& progress = {});
+  bool Cut(double error, const ProgressCallback& progress = {});
   RadiositySolution Deliver() const;
 
  private:

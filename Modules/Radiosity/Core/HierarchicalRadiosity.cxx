@@ -49,12 +49,15 @@ constexpr double kLeastGain = 0.9;
 constexpr int kMostGathers = 4;
 /// An error counts as met a little below the request: the points that verify it are a sample.
 constexpr double kVerifiedBelow = 0.95;
-/// The next gather aims this far below the wanted error, and takes about this many times as long.
-constexpr double kAimBelow = 0.85, kGatherGrowth = 2;
+/// The next gather aims this far below the wanted error.
+constexpr double kAimBelow = 0.85;
+/// The first round of cuts takes at most about this part of the time of the gather before it, a
+/// later one up to so many times as long as the one before.
+constexpr double kFirstRound = 0.75, kRoundGrowth = 1.5;
 /// Points that are gathered at to predict how long all take, and the reserve for what they leave
-/// out (leaves, cut triangles, verification).
+/// out (leaves).
 constexpr int64_t kTrialPoints = 1024;
-constexpr double kTrialReserve = 2;
+constexpr double kTrialReserve = 1.2;
 /// Paths a point for verification.
 constexpr int kVerificationSamples = 256;
 
@@ -223,7 +226,7 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
                timer.Seconds() + self.PredictGatherSeconds() > self.options.timeLimit) {
       statistics.stoppedBy = "time";
     } else if (isLast) {
-      this->GatherUntilMet(iteration, progress, observer);
+      this->GatherUntilMet(progress, observer);
     } else if (self.options.timeLimit > 0 &&
                timer.Seconds() + iterationTimer.Seconds() > self.options.timeLimit) {
       statistics.stoppedBy = "time";
@@ -305,68 +308,80 @@ void HierarchicalRadiosity::Implementation::Count() {
   }
 }
 
-// A final gather, on a finer and finer mesh, until the error that was asked for is verified.
-void HierarchicalRadiosity::GatherUntilMet(int iteration, const ProgressCallback& progress,
+// A final gather, on a finer and finer mesh, until the error that was asked for is verified. Each
+// gather and each round of cuts is an iteration.
+void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
                                            const IterationObserver& observer) {
   Implementation& self = *implementation_;
   SolverStatistics& statistics = self.statistics;
   const double before = statistics.history.back().seconds;
   const Timer timer;
+  const int rounds = self.options.cutsTriangles ? kCuttingRounds : 0;
   double aim = self.options.error, lastError = 0;
-  GatheredSolution solution(&self.hierarchy, &self.light, self.rayScene, self.litSides,
-                            GatherFor(self.options.error), &self.network.rays);
+  std::optional<GatheredSolution> solution;
   for (int gather = 1;; ++gather) {
-    // Gather where nothing is known yet.
-    const Timer iterationTimer;
-    const ProgressCallback part = [&](double fraction, const char* stage) {
-      const double done = (gather - 1 + fraction) / kMostGathers;
-      return Report(progress, 1 - kGatherShare * (1 - std::min(1.0, done)), stage);
-    };
-    try {
-      solution.Refine(kInterpolationShare * aim, NoiseFor(aim),
-                      self.options.cutsTriangles ? kCuttingRounds : 0, part);
-      self.gathered = solution.Deliver();
-    } catch (const Cancelled&) {
-      statistics.stoppedBy = "interrupt";
+    for (int round = 0; round <= rounds; ++round) {
+      const Timer iterationTimer;
+      const ProgressCallback part = [&](double fraction, const char* stage) {
+        const double done = (gather - 1 + (round + fraction) / (rounds + 1)) / kMostGathers;
+        return Report(progress, 1 - kGatherShare * (1 - std::min(1.0, done)), stage);
+      };
+      try {
+        if (!solution) {
+          solution.emplace(&self.hierarchy, &self.light, self.rayScene, self.litSides,
+                           GatherFor(self.options.error), &self.network.rays);
+        }
+        if (round == 0) {
+          solution->Gather(NoiseFor(aim), part);
+        } else if (!solution->Cut(kInterpolationShare * aim, part)) {
+          break;
+        }
+        self.gathered = solution->Deliver();
+      } catch (const Cancelled&) {
+        statistics.stoppedBy = "interrupt";
+        return;
+      }
+
+      // The border of an iteration.
+      IterationRecord record = statistics.history.back();
+      ++record.iteration;
+      record.seconds = before + timer.Seconds();
+      record.rays = self.network.rays;
+      record.error = -1;
+      statistics.history.push_back(record);
+      const bool goOn = !observer || observer(record);
+      const double next = (round == 0 ? kFirstRound : kRoundGrowth) * iterationTimer.Seconds();
+      if (self.options.iterations > 0 && record.iteration >= self.options.iterations) {
+        statistics.stoppedBy = "iterations";
+      } else if (!goOn) {
+        statistics.stoppedBy = "interrupt";
+      } else if (self.options.timeLimit > 0 &&
+                 before + timer.Seconds() + next > self.options.timeLimit) {
+        statistics.stoppedBy = "time";
+      } else {
+        continue;
+      }
       return;
     }
 
     // Verify; another set of points each time, or the second would be chosen by the first.
-    SolutionError error;
+    double error = -1;
     if (self.options.verificationPoints > 0) {
       SolutionErrorOptions verification;
       verification.points = self.options.verificationPoints;
       verification.samples = kVerificationSamples;
       verification.seed = HashBits(0x76657269u, uint64_t(gather));
-      error = MeasureSolutionError(self.scene, *self.gathered, verification);
+      error = MeasureSolutionError(self.scene, *self.gathered, verification).Counting();
     }
-    IterationRecord record = statistics.history.back();
-    record.iteration = iteration + gather;
-    record.seconds = before + timer.Seconds();
-    record.rays = self.network.rays;
-    record.error = self.options.verificationPoints > 0 ? error.Counting() : -1;
-    statistics.history.push_back(record);
-
-    // The border of an iteration.
-    const bool goOn = !observer || observer(record);
-    const bool isMet = record.error <= kVerifiedBelow * self.options.error;
-    const bool isStuck = gather > 1 && record.error > kLeastGain * lastError;
-    lastError = record.error;
+    statistics.history.back().error = error;
+    const bool isMet = error <= kVerifiedBelow * self.options.error;
+    const bool isStuck = gather > 1 && error > kLeastGain * lastError;
+    lastError = error;
     if (isMet || isStuck || gather == kMostGathers) {
       statistics.stoppedBy = isMet ? "error" : "floor";
-    } else if (self.options.iterations > 0 && record.iteration >= self.options.iterations) {
-      statistics.stoppedBy = "iterations";
-    } else if (!goOn) {
-      statistics.stoppedBy = "interrupt";
-    } else if (self.options.timeLimit > 0 &&
-               before + timer.Seconds() + kGatherGrowth * iterationTimer.Seconds() >
-                   self.options.timeLimit) {
-      statistics.stoppedBy = "time";
-    } else {
-      aim *= std::min(0.8, std::max(0.35, kAimBelow * self.options.error / record.error));
-      continue;
+      return;
     }
-    return;
+    aim *= std::min(0.8, std::max(0.35, kAimBelow * self.options.error / error));
   }
 }
 

@@ -40,10 +40,10 @@ class HierarchicalRadiosity {
   /// Called at the end of every iteration, when Solution() is up to date; false ends the run.
   using IterationObserver = std::function<bool(const IterationRecord&)>;
 
-  /// Gather, push-pull, refine with a falling threshold (thesis figure 4.10); then iterations of
-  /// final gather at the points of the mesh, each verified, until the wanted error is met or a stop
-  /// comes before. A cancelled run keeps the state of its last whole iteration;
-  /// `Statistics().stoppedBy` says why it ended.
+  /// Gather, push-pull, refine with a falling threshold (thesis figure 4.10); then final gather at
+  /// the points of the mesh, in iterations of cuts, verified after the last of them and improved
+  /// until the wanted error is met or a stop comes before. A cancelled run keeps the state of its
+  /// last whole iteration; `Statistics().stoppedBy` says why it ended.
   void Run(const ProgressCallback& progress = {}, const IterationObserver& observer = {});
 
   /// The displayable solution as it stands: that of the final gather once there is one, before it
@@ -52,8 +52,7 @@ class HierarchicalRadiosity {
   const SolverStatistics& Statistics() const;
 
  private:
-  void GatherUntilMet(int iteration, const ProgressCallback& progress,
-                      const IterationObserver& observer);
+  void GatherUntilMet(const ProgressCallback& progress, const IterationObserver& observer);
 
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
