@@ -53,7 +53,7 @@ agrees(reading(CORNELL_BOX, back_wall, "--error", 0.01, "--iterations", 3), *tru
 
 # DefaultScene: the green wall beside the pictures, 200,000 paths.
 room = os.path.join(DATA, "DefaultScene", "DefaultScene.obj")
-agrees(reading(room, (3.0, 2.2, 0, 0, 0, 1), "--error", 0.2, "--iterations", 5),
+agrees(reading(room, (3.0, 2.2, 0, 0, 0, 1), "--error", 0.2, "--iterations", 7),
        (0.790786, 0.657184, 0.511616), (0.0018, 0.0014, 0.00094), 0.2)
 
 # ClusterColors: the finest view. Its 512 clusters cover the ring once: their areas add up to VTK's own measure of it, and
