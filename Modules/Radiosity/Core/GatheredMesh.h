@@ -65,11 +65,11 @@ class GatheredMesh {
   };
   /// Where an edge of light enters a patch and where it leaves.
   struct Crossing {
-    size_t chosen;
-    Vec3f middle;  ///< of the patch
-    double area, length;
+    size_t chosen;        ///< index of the patch among those
+    Vec3f middle;         ///< of the patch
+    double area, length;  ///< of the patch, m2 and m
     std::array<BorderSegment, 2> segments;
-    std::array<size_t, 2> searched;
+    std::array<size_t, 2> searched;  ///< of the segments that are asked for light
   };
 
   /// Of what receives: its area, m2, mean irradiance and mean square (W/m2, norm over bands).

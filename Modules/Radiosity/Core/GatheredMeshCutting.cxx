@@ -70,10 +70,10 @@ std::vector<GatheredMesh::ChosenPatch> GatheredMesh::ChoosePatches(double wanted
   }
   for (int64_t t = 0; t < count; ++t) {
     const LeafTriangle& triangle = mesh_.Triangles()[size_t(t)];
-    const int32_t patch = triangle.patch >= 0 ? triangle.patch
-                                              : hierarchy_->Leaves().FindFacePatch(
-                                                    triangle.face, Side(triangle.side));
-    const auto found = patch >= 0 ? indexOfPatch.find(patch) : indexOfPatch.end();
+    const bool isWhole = triangle.patch < 0;
+    const auto found = indexOfPatch.find(
+        isWhole ? hierarchy_->Leaves().FindFacePatch(triangle.face, Side(triangle.side))
+                : triangle.patch);
     if (found == indexOfPatch.end()) continue;
     ChosenPatch& own = chosen[found->second];
     own.triangles.push_back(t);

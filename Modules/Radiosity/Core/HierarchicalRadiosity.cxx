@@ -43,8 +43,8 @@ double FinalThreshold(double error) { return 1.6e-5 * std::pow(std::min(error, 0
 
 /// Share of the progress that the final gather takes.
 constexpr double kGatherShare = 0.6;
-/// Iterations of final gather before it is said that the error cannot be met, and what the error
-/// must fall to in one for another to be worth it.
+/// Gathers, each with its rounds of cuts, before it is said that the error cannot be met; and what
+/// the error must fall to in one for another to be worth it.
 constexpr double kLeastGain = 0.9;
 constexpr int kMostGathers = 4;
 /// An error counts as met a little below the request: the points that verify it are a sample.

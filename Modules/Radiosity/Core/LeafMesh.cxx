@@ -21,15 +21,6 @@ constexpr double kSmallestPatch = 1e-10;
 // Parameters of an edge nearer than this, some roundings of a double, are one point.
 constexpr double kSameParameter = 1e-15;
 
-double Extent(const std::vector<PatchBorderVertex>& border) {
-  double extent = 0;
-  for (const PatchBorderVertex& vertex : border) {
-    const Vec2d offset = vertex.position - border.front().position;
-    extent = std::max({extent, std::abs(offset.x), std::abs(offset.y)});
-  }
-  return extent;
-}
-
 }  // namespace
 
 int32_t LeafMesh::Implementation::FacePatch(int32_t face, Side side) {
@@ -51,7 +42,7 @@ std::array<int32_t, 2> LeafMesh::Implementation::Split(int32_t id) {
 
   // Choose the line and put its ends into the border, and with it into the neighbours' (4.4.2).
   BorderOf(patch, &scratch);
-  if (Extent(scratch.polygon) < kSmallestPatch * scratch.faceLength) {
+  if (PatchExtent(scratch.polygon) < kSmallestPatch * scratch.faceLength) {
     throw Error("A patch of face " + std::to_string(patch.face) +
                 " is too small to be split; stop at larger patches.");
   }
@@ -76,7 +67,7 @@ std::vector<int32_t> LeafMesh::Implementation::SplitAlong(int32_t id,
   for (const auto& [a, b] : ends) {
     for (size_t i = 0; i < leaves.size(); ++i) {
       BorderOf(patches[size_t(leaves[i])], &scratch);
-      if (Extent(scratch.polygon) < kSmallestPatch * scratch.faceLength) continue;
+      if (PatchExtent(scratch.polygon) < kSmallestPatch * scratch.faceLength) continue;
       const auto cut = CutPatchAlong(scratch.polygon, a, b);
       if (!cut) continue;
       const std::array<int32_t, 2> halves = Cut(leaves[i], *cut);

@@ -76,6 +76,15 @@ struct Chain {
 
 }  // namespace
 
+double PatchExtent(const std::vector<PatchBorderVertex>& border) {
+  double extent = 0;
+  for (const PatchBorderVertex& vertex : border) {
+    const Vec2d offset = vertex.position - border.front().position;
+    extent = std::max({extent, std::abs(offset.x), std::abs(offset.y)});
+  }
+  return extent;
+}
+
 PatchRectangle MinimumPatchRectangle(const std::vector<PatchBorderVertex>& border) {
   PatchRectangle best;
   double bestArea = std::numeric_limits<double>::max();
@@ -157,11 +166,7 @@ std::optional<std::array<PatchCutEnd, 2>> CutPatchAlong(
   // On which side of the line each vertex lies, and how far from it.
   const Vec2d direction = b - a;
   const double length = std::hypot(direction.x, direction.y);
-  double extent = 0;
-  for (const PatchBorderVertex& vertex : border) {
-    const Vec2d offset = vertex.position - border.front().position;
-    extent = std::max({extent, std::abs(offset.x), std::abs(offset.y)});
-  }
+  const double extent = PatchExtent(border);
   if (!(length > kOnLine * extent)) return {};
   const int count = int(border.size());
   std::vector<double> height(border.size());

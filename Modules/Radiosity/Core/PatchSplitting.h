@@ -32,6 +32,9 @@ struct PatchCutEnd {
   double fraction = 0;
 };
 
+/// Largest distance along an axis of the plane from the first vertex to any other.
+double PatchExtent(const std::vector<PatchBorderVertex>& border);
+
 /// Rectangle around the corners of a convex polygon, one side flush with an edge. Of rectangles of
 /// equal area the longest is taken: every acute triangle has three.
 PatchRectangle MinimumPatchRectangle(const std::vector<PatchBorderVertex>& border);
