@@ -61,9 +61,10 @@ constexpr double kTrialReserve = 1.2;
 /// Paths a point for verification.
 constexpr int kVerificationSamples = 256;
 
-/// Rays of every point over its hemisphere, times the error; what their scatter may leave, of the
-/// wanted error.
-constexpr double kFirstRays = 0.2, kNoiseShare = 0.7;
+/// Rays of every point and of a leaf of mean area over the hemisphere, times the error; what their
+/// scatter may leave, of the wanted error.
+constexpr double kFirstRays = 0.4, kLeafRays = 0.8, kNoiseShare = 0.7;
+constexpr int kLeastFirstRays = 2, kLeastLeafRays = 4, kMostLeafRays = 64;
 /// No point casts more than so many times the rays of the first round: light that scatters still
 /// is found by rays that few points need.
 constexpr int kMostOfFirst = 32;
@@ -75,8 +76,10 @@ double NoiseFor(double error) { return std::min(kMostNoise, kNoiseShare * error)
 /// The final gather that usually gives a wanted relative error, measured (Documentation/Stages).
 GatheredSolutionOptions GatherFor(double error) {
   GatheredSolutionOptions options;
+  options.leafRays = std::clamp(int(kLeafRays / error), kLeastLeafRays, kMostLeafRays);
   GatheredPointsOptions& points = options.points;
   points.noise = NoiseFor(error);
+  points.firstRays = kLeastFirstRays;
   while (points.firstRays < kFirstRays / error) points.firstRays *= 2;
   points.mostRays = kMostOfFirst * points.firstRays;
   points.directRays = std::min(64, std::max(8, int(0.8 / error)));
