@@ -180,6 +180,7 @@ std::string RunReportJson(const RadiosityRun& run, const std::string& version) {
     report["energy_w"] = {{"emitted", ToJson(s.emitted)},
                           {"absorbed", ToJson(s.absorbed)},
                           {"escaped", ToJson(s.escaped)}};
+    if (isHierarchical) report["energy_w"]["covered"] = ToJson(s.covered);
   }
   report["history"] = HistoryJson(s);
 

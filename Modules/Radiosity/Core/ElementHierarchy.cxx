@@ -32,28 +32,32 @@ bool EmitsSomewhere(const TriangleMesh& mesh, const ClusterNode& node) {
 
 Vec3f Oriented(const Vec3f& v, Side side) { return side == kFront ? v : -v; }
 
-/// Stratified places on a convex polygon: one low-discrepancy set, shifted by the element's seed.
-void SamplePolygon(const Vec3f* corners, int count, const Vec3f& normal, uint64_t seed,
-                   std::array<SurfaceSample, kSamplesPerElement>* samples) {
-  float areas[kMaximumPolygonCorners];
+/// A place on a convex polygon, uniform in area where `u` and `v` are uniform in [0, 1].
+Vec3f PlaceOnPolygon(const Vec3f* corners, int count, float u, float v) {
+  float areas[kMaximumPolygonCorners] = {};
   float total = 0;
   for (int i = 2; i < count; ++i) {
     areas[i] = Length(Cross(corners[i - 1] - corners[0], corners[i] - corners[0]));
     total += areas[i];
   }
+  int triangle = 2;
+  float left = u * total;
+  while (triangle + 1 < count && left >= areas[triangle]) left -= areas[triangle++];
+  u = areas[triangle] > 0 ? std::min(1.f, left / areas[triangle]) : 0.5f;
+  const Vec2f b = UniformTriangle(u, v);
+  return corners[0] + (corners[triangle - 1] - corners[0]) * b.x +
+         (corners[triangle] - corners[0]) * b.y;
+}
+
+/// Stratified places on a convex polygon: one low-discrepancy set, shifted by the element's seed.
+void SamplePolygon(const Vec3f* corners, int count, const Vec3f& normal, uint64_t seed,
+                   std::array<SurfaceSample, kSamplesPerElement>* samples) {
   Random random(seed);
   const float shiftU = random.Uniform(), shiftV = random.Uniform();
   for (int k = 0; k < kSamplesPerElement; ++k) {
-    float u = (float(k) + shiftU) / kSamplesPerElement;
+    const float u = (float(k) + shiftU) / kSamplesPerElement;
     const float v = RadicalInverse(uint32_t(k), shiftV);
-    int triangle = 2;
-    float left = u * total;
-    while (triangle + 1 < count && left >= areas[triangle]) left -= areas[triangle++];
-    u = areas[triangle] > 0 ? std::min(1.f, left / areas[triangle]) : 0.5f;
-    const Vec2f b = UniformTriangle(u, v);
-    (*samples)[size_t(k)].position = corners[0] + (corners[triangle - 1] - corners[0]) * b.x +
-                                     (corners[triangle] - corners[0]) * b.y;
-    (*samples)[size_t(k)].normal = normal;
+    (*samples)[size_t(k)] = {PlaceOnPolygon(corners, count, u, v), normal};
   }
 }
 
@@ -250,24 +254,45 @@ Element ElementHierarchy::MakeFaceElement(int32_t nodeIndex, Side side, int32_t 
   } else {
     element.frame = ComputeClusterFrame(mesh, node);
     Random random(seed);
-    const double first = areaBefore_[size_t(node.firstFace)];
-    const double last = areaBefore_[size_t(node.firstFace + node.faceCount)];
     for (int k = 0; k < kSamplesPerElement; ++k) {
-      const double target =
-          first + (last - first) * (k + random.UniformDouble()) / kSamplesPerElement;
-      const auto begin = areaBefore_.begin() + node.firstFace;
-      const int64_t face = std::min<int64_t>(
-          node.firstFace + node.faceCount - 1,
-          std::upper_bound(begin, begin + node.faceCount, target) - areaBefore_.begin() - 1);
-      const Vec2f b = UniformTriangle(random.Uniform(), random.Uniform());
-      const Vec3f& p = mesh.Corner(face, 0);
-      element.samples[size_t(k)] = {
-          p + (mesh.Corner(face, 1) - p) * b.x + (mesh.Corner(face, 2) - p) * b.y,
-          Oriented(mesh.FrontNormal(face), side)};
+      const double u = (k + random.UniformDouble()) / kSamplesPerElement;
+      element.samples[size_t(k)] = this->PlaceInCluster(node, side, u, &random).at;
     }
   }
   element.radius = Length(element.frame.halfExtent);
   return element;
+}
+
+// On one of its faces, picked by area with `u` in [0, 1].
+ElementHierarchy::Place ElementHierarchy::PlaceInCluster(const ClusterNode& node, Side side,
+                                                         double u, Random* random) const {
+  const double first = areaBefore_[size_t(node.firstFace)];
+  const double last = areaBefore_[size_t(node.firstFace + node.faceCount)];
+  const auto begin = areaBefore_.begin() + node.firstFace;
+  const int32_t face = int32_t(std::min<int64_t>(
+      node.firstFace + node.faceCount - 1,
+      std::upper_bound(begin, begin + node.faceCount, first + (last - first) * u) -
+          areaBefore_.begin() - 1));
+  const TriangleMesh& mesh = scene_.mesh;
+  const Vec2f b = UniformTriangle(random->Uniform(), random->Uniform());
+  const Vec3f& p = mesh.Corner(face, 0);
+  const Vec3f place = p + (mesh.Corner(face, 1) - p) * b.x + (mesh.Corner(face, 2) - p) * b.y;
+  return {{place, Oriented(mesh.FrontNormal(face), side)}, face};
+}
+
+ElementHierarchy::Place ElementHierarchy::PlaceOn(int32_t index, Random* random) const {
+  const Element& element = elements_[size_t(index)];
+  const bool isPatch = element.kind == ElementKind::Patch;
+  if (!element.IsPolygon()) {
+    const ClusterNode& node = tree_.nodes[size_t(element.item)];
+    return this->PlaceInCluster(node, element.side, random->UniformDouble(), random);
+  }
+  Vec3f corners[kMaximumPolygonCorners];
+  const int count = this->PolygonCorners(element, corners);
+  const float u = random->Uniform(), v = random->Uniform();
+  return {
+      {PlaceOnPolygon(corners, count, u, v), element.axis},
+      isPatch ? leafMesh_.PatchFace(element.item) : tree_.nodes[size_t(element.item)].firstFace};
 }
 
 Element ElementHierarchy::MakePatchElement(int32_t patch, const Element& parent) const {

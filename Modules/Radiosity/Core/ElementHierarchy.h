@@ -6,6 +6,7 @@
 
 #include "Clustering/Core/FaceClustering.h"
 #include "Clustering/Core/VolumeClustering.h"
+#include "Common/Core/Random.h"
 #include "Radiosity/Core/Element.h"
 #include "Radiosity/Core/LeafMesh.h"
 #include "Scene/Core/Scene.h"
@@ -42,6 +43,13 @@ class ElementHierarchy {
 
   /// Corners of a polygon element, counter-clockwise seen from its side; returns their count.
   int PolygonCorners(const Element& element, Vec3f* corners) const;
+  /// A place on a face.
+  struct Place {
+    SurfaceSample at;
+    int32_t face = -1;
+  };
+  /// A place on a surface element, uniform in area.
+  Place PlaceOn(int32_t element, Random* random) const;
   /// Elements by level, root level first, each in order of index: for sweeps up and down.
   const std::vector<std::vector<int32_t>>& Levels() const { return levels_; }
 
@@ -60,6 +68,7 @@ class ElementHierarchy {
   void LinkVolume(int32_t element, const std::vector<VolumeNode>& volumes,
                   const std::vector<int32_t>& surfaces);
   Element MakeFaceElement(int32_t node, Side side, int32_t surface) const;
+  Place PlaceInCluster(const ClusterNode& node, Side side, double u, Random* random) const;
   Element MakePatchElement(int32_t patch, const Element& parent) const;
   bool BelowFloor(const Element& element) const;
   void FinishVolumes(int32_t root);

@@ -1,4 +1,4 @@
-// Where the light went: emitted = absorbed + escaped, each found on its own.
+// Where the light went: emitted = absorbed - covered + escaped, each found on its own.
 #pragma once
 
 #include "Radiosity/Core/ElementHierarchy.h"
@@ -8,10 +8,12 @@
 
 namespace lambert {
 
-/// Fills `emitted`, `absorbed` and `escaped` (W per band) of the statistics. Emitted: of faces and
-/// of point and spot lights; skies and directional lights count with what arrives from them.
-/// Absorbed: by the leaves, and by emitters that do not reflect, by rays. Escaped: what leaves the
-/// leaves, by rays that meet nothing; light of point lights too.
+/// Fills `emitted`, `absorbed`, `escaped` and `covered` (W per band) of the statistics. Emitted: of
+/// faces and of point and spot lights; skies and directional lights count with what arrives from
+/// them. Absorbed: by the leaves, and by emitters that do not reflect, by rays. Escaped: what
+/// leaves the leaves, by rays that meet nothing; light of point lights too. Covered: the part of
+/// the absorbed that falls on faces under others nearer than what rays skip, where the same light
+/// counts twice.
 void MeasureEnergyBalance(const ElementHierarchy& hierarchy, const LinkNetwork& network,
                           const ElementLight& light, const RayScene& rayScene,
                           SolverStatistics* statistics);

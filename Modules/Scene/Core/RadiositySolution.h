@@ -29,7 +29,10 @@ struct SolverStatistics {
           patchPatch = 0, fromLights = 0;
   int64_t linksAtFloor = 0;  ///< links that the element floor kept from being refined
   int64_t rays = 0;
-  Spectrum emitted, absorbed, escaped;  ///< W; emitted = absorbed + escaped
+  Spectrum emitted, absorbed, escaped;  ///< W; emitted = absorbed - covered + escaped
+  /// W of the absorbed, on faces under others nearer than what rays skip: there light counts twice.
+  /// Of the hierarchical method; others leave it 0 and count it as absorbed.
+  Spectrum covered;
   std::vector<IterationRecord> history;
   std::string stoppedBy;  ///< error | time | iterations | interrupt | memory | floor
 
