@@ -19,8 +19,9 @@ constexpr int kFirstDirectRays = 4;
 constexpr double kMostByArea = 16;
 /// Rays to emitters that a point may be given at once, where it is asked for more.
 constexpr int kMostDirectRays = 256;
-/// Neighbours whose shadows tell of a point's own.
-constexpr int kShadowNeighbours = 12;
+/// Neighbours whose shadows tell of a point's own, where there are at least the first number: what
+/// fewer find in narrow places may all be chance.
+constexpr int kLeastShadowNeighbours = 8, kShadowNeighbours = 12;
 /// A point's scatter counts in this part by the area that it stands for, else as one of all points.
 constexpr double kByArea = 0.75;
 /// Rounds of more rays; in one a point gets up to this many times the rays it had.
@@ -103,7 +104,7 @@ void GatheredPoints::GatherNew(int32_t first, int64_t* rays, const ProgressCallb
 bool GatheredPoints::IsInPenumbra(int32_t index, const SampleNeighbours& neighbours) const {
   const int32_t* begin = neighbours.begin(index);
   const int32_t* end = std::min(neighbours.end(index), begin + kShadowNeighbours);
-  if (begin == end) return true;
+  if (end - begin < kLeastShadowNeighbours) return true;
   float least = 1, most = 0;
   for (const int32_t* other = begin; other != end; ++other) {
     least = std::min(least, records_[size_t(*other)].direct.clear);
