@@ -332,6 +332,7 @@ DirectSample DirectLight::FromEmitters(const GatherPoint& at, int rays, uint64_t
   sample.irradiance =
       this->CastRays(at, sources.data(), count, total, rays, HashBits(seed, 1), &clear);
   sample.clear = float(clear) / float(rays);
+  sample.unoccluded = total;
   sample.isScattered = grouped > kMostGrouped * total;
   *cast += rays;
   return sample;

@@ -25,6 +25,8 @@ struct GatherPoint {
 struct DirectSample {
   Spectrum irradiance;  ///< W/m2
   float clear = 1;      ///< part of the rays that nothing was in the way of
+  float unoccluded =
+      0;  ///< mean of the bands with nothing in the way; of groups at most that, W/m2
   bool isScattered =
       false;  ///< much of it comes from groups of emitters, of which rays picked some
 };

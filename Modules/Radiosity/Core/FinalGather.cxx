@@ -20,9 +20,13 @@ constexpr int kRaysOfBatch = 256, kPointsOfBatch = 32;
 constexpr int kDirectionCells = 8;  ///< across the square that the hemisphere is drawn from
 constexpr int64_t kBatchesAtOnce = 1024;
 /// A leaf nearer than this many of its radii is not taken as one.
-constexpr float kNear = 0.5f;
-/// A place on a leaf is at most this many times as bright as the leaf.
-constexpr float kMostOfLeaf = 16;
+constexpr float kNear = 1;
+/// A place on a leaf is at most so many times as bright as the leaf, or as leaves are in the mean:
+/// one whose samples are all hidden tells nothing of a place that is not.
+constexpr float kMostOfLeaf = 16, kMostOfMean = 20;
+/// A sample of a leaf that receives less than this part of what its brightest one does is taken
+/// for hidden; places that are seen are not.
+constexpr float kHidden = 0.01f;
 /// A facet that turns within a leaf receives up to this many times what its nearest sample does.
 constexpr float kMostTurned = 2;
 /// Normals whose cosine is larger than this look the same way.
@@ -250,10 +254,14 @@ void FinalGather::GatherAtLeaves(int rays, double share, uint64_t seed, int64_t*
     const Spectrum now = Smaller(most, all - reflected + factor * reflected);
     return before * float(1 - share) + now * float(share);
   };
+  double reflected = 0;
   for (size_t i = 0; i < leaves.size(); ++i) {
     const size_t leaf = size_t(leaves[i]);
     const LeafLight& g = gathered[i];
     this->Receive(leaves[i], joined(polygonIrradiance_[leaf], g.irradiance, g.reflected));
+    const Element& element = hierarchy_[leaves[i]];
+    reflected +=
+        double(element.area) * double((element.reflectance * polygonIrradiance_[leaf]).Mean());
     hasGathered_[leaf] = 1;
     sampleDirect_[leaf] = g.direct;
     for (size_t k = 0; k < kSamplesPerElement; ++k) {
@@ -262,6 +270,7 @@ void FinalGather::GatherAtLeaves(int rays, double share, uint64_t seed, int64_t*
     }
     *cast += castBy[i];
   }
+  meanRadiosity_ = float(reflected / area);
 }
 
 // How much more a facet of a leaf receives when it turns, by the leaf's irradiance vectors.
@@ -280,17 +289,21 @@ Spectrum FinalGather::IrradianceOfLeaf(int32_t leaf, const Vec3f& place,
                                        const Vec3f& normal) const {
   const Element& element = hierarchy_[leaf];
   if (hasGathered_[size_t(leaf)]) {
+    const auto& atSample = sampleIrradiance_[size_t(leaf)];
+    float brightest = 0;
+    for (const Spectrum& e : atSample) brightest = std::max(brightest, e.Mean());
     int nearest = -1;
     float least = std::numeric_limits<float>::max();
     for (int k = 0; k < kSamplesPerElement; ++k) {
       const SurfaceSample& sample = element.samples[size_t(k)];
       const float distance = LengthSquared(sample.position - place);
       if (distance >= least || Dot(sample.normal, normal) < kSameWay) continue;
+      if (atSample[size_t(k)].Mean() < kHidden * brightest) continue;
       nearest = k;
       least = distance;
     }
     if (nearest >= 0)
-      return sampleIrradiance_[size_t(leaf)][size_t(nearest)] *
+      return atSample[size_t(nearest)] *
              this->TurnedTo(leaf, element.samples[size_t(nearest)].normal, normal);
   }
   if (element.IsPolygon()) return polygonIrradiance_[size_t(leaf)];
@@ -318,8 +331,8 @@ FinalGather::Radiosity FinalGather::Met(const Vec3f& from, const Vec3f& directio
   const Spectrum ofLeaf = reflectance * this->IrradianceOfLeaf(leaf, place, normal);
   if (bounces == 0 || hit.distance >= kNear * element.radius) return {{}, ofLeaf, hit.distance};
 
-  // One direction stands for all of them: what it finds is taken up to some times what the leaf or
-  // this place on it has, whichever is more.
+  // One direction stands for all of them: what it finds is taken up to some times what the leaf,
+  // this place on it, or the mean of all leaves has, whichever is most.
   const GatherPoint at{place, normal, normal};
   Vec3f u, v;
   CoordinateSystem(normal, &u, &v);
@@ -331,7 +344,8 @@ FinalGather::Radiosity FinalGather::Met(const Vec3f& from, const Vec3f& directio
                   hit.distance};
   const float brightness = (found.fromSources + found.fromLeaves).Mean();
   const Spectrum inTheMean = reflectance * polygonIrradiance_[size_t(leaf)];
-  const float most = kMostOfLeaf * std::max(ofLeaf.Mean(), inTheMean.Mean());
+  const float most = std::max(kMostOfLeaf * std::max(ofLeaf.Mean(), inTheMean.Mean()),
+                              kMostOfMean * meanRadiosity_);
   if (brightness > most) {
     found.fromSources *= most / brightness;
     found.fromLeaves *= most / brightness;

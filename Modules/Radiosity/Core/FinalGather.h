@@ -119,7 +119,8 @@ class FinalGather {
   std::vector<std::array<Spectrum, kSamplesPerElement>> sampleIrradiance_;
   std::vector<std::array<Spectrum, kSamplesPerElement>> sampleDirect_;  ///< of it, from sources
   std::vector<uint8_t> hasGathered_;                                    ///< by element
-  std::vector<Cut> cuts_;  ///< by element, of triangles and patches that have children
+  float meanRadiosity_ = 0;  ///< of the leaves that have gathered, what they reflect, W/m2
+  std::vector<Cut> cuts_;    ///< by element, of triangles and patches that have children
 };
 
 }  // namespace lambert

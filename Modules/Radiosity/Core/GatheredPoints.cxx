@@ -17,6 +17,11 @@ constexpr float kReach = 0.5f;
 constexpr int kFirstDirectRays = 4;
 /// Points that stand for more area than the mean get up to this many times the rays to emitters.
 constexpr double kMostByArea = 16;
+/// What a point is thought to see of the emitters where no neighbour tells.
+constexpr double kUnknownClear = 0.25;
+/// Half shadow that scatters so much as a relative variance a ray gets the wanted number of rays;
+/// any other one a multiple between these.
+constexpr double kUsualScatter = 0.25, kLeastByScatter = 0.25, kMostByScatter = 8;
 /// Rays to emitters that a point may be given at once, where it is asked for more.
 constexpr int kMostDirectRays = 256;
 /// Neighbours whose shadows tell of a point's own, where there are at least the first number: what
@@ -113,6 +118,22 @@ bool GatheredPoints::IsInPenumbra(int32_t index, const SampleNeighbours& neighbo
   return most > 0 && least < 1;
 }
 
+// Relative variance that one ray to the emitters leaves at a point, by what its neighbours see of
+// them; light below `mean`, W/m2, counts as that.
+double GatheredPoints::ScatterOfShadow(int32_t index, const SampleNeighbours& neighbours,
+                                       double mean) const {
+  const int32_t* begin = neighbours.begin(index);
+  const int32_t* end = std::min(neighbours.end(index), begin + kShadowNeighbours);
+  double clear = kUnknownClear;
+  for (const int32_t* other = begin; other != end; ++other) {
+    clear += double(records_[size_t(*other)].direct.clear);
+  }
+  clear /= double(end - begin + 1);
+  const double unoccluded = double(records_[size_t(index)].direct.unoccluded);
+  const double light = std::max(mean, clear * unoccluded);
+  return light > 0 ? clear * (1 - clear) * unoccluded * unoccluded / (light * light) : 0;
+}
+
 // Casts `more` rays for each record from `first` on, and joins what they find to what is known.
 void GatheredPoints::CastMoreToEmitters(const std::vector<int>& more, int32_t first,
                                         int64_t* rays) {
@@ -134,14 +155,23 @@ void GatheredPoints::CastMoreToEmitters(const std::vector<int>& more, int32_t fi
 
 void GatheredPoints::LookIntoPenumbrae(int32_t first, const SampleNeighbours& neighbours,
                                        int64_t* rays) {
-  double area = 0;
-  for (const Record& record : records_) area += double(record.at.area) / double(records_.size());
+  double area = 0, mean = 0;
+  for (const Record& record : records_) {
+    area += double(record.at.area) / double(records_.size());
+    mean +=
+        double((record.direct.irradiance + record.bounces.Mean()).Mean()) / double(records_.size());
+  }
   std::vector<int> more(records_.size() - size_t(first), 0);
   ParallelForEach(int64_t(more.size()), 256, [&](int64_t i) {
     const int32_t index = first + int32_t(i);
     const Record& record = records_[size_t(index)];
     const bool isPartial = this->IsInPenumbra(index, neighbours);
-    int wanted = isPartial ? options_.penumbraRays : 0;
+    const double scatter = this->ScatterOfShadow(index, neighbours, mean) / kUsualScatter;
+    int wanted = 0;
+    if (isPartial) {
+      wanted =
+          int(options_.penumbraRays * std::min(kMostByScatter, std::max(kLeastByScatter, scatter)));
+    }
     if (isPartial || record.direct.isScattered) wanted += options_.directRays;
     const double part = area > 0 ? double(record.at.area) / area : 1;
     more[size_t(i)] = int(wanted * std::min(kMostByArea, std::max(1.0, part)));
@@ -165,11 +195,15 @@ void GatheredPoints::Improve(double noise, int64_t* rays, const ProgressCallback
 
 // What the bounced light is, all neighbours heard.
 void GatheredPoints::Share(int32_t first, const SampleNeighbours& neighbours) {
+  double usual = 0;
+  for (const IrradianceSample& s : samples_) {
+    usual += std::sqrt(SquaredNorm(s.irradiance)) / double(samples_.size());
+  }
   const int64_t count = int64_t(records_.size()) - first;
   ParallelForEach(count, 256, [&](int64_t i) {
     const int32_t index = int32_t(first + i);
     Record& record = records_[size_t(index)];
-    record.bounced = FilterIrradiance(samples_, neighbours, index);
+    record.bounced = FilterIrradiance(samples_, neighbours, index, float(usual));
     // Few rays may all find the brightest of all, beside direct light from much of the hemisphere.
     for (int band = 0; band < 3; ++band) {
       const float most = std::max(0.f, brightest_[band] - record.direct.irradiance[band]);

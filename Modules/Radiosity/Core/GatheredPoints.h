@@ -58,6 +58,7 @@ class GatheredPoints {
 
   void GatherNew(int32_t first, int64_t* rays, const ProgressCallback& progress);
   bool IsInPenumbra(int32_t record, const SampleNeighbours& neighbours) const;
+  double ScatterOfShadow(int32_t record, const SampleNeighbours& neighbours, double mean) const;
   void CastMoreToEmitters(const std::vector<int>& more, int32_t first, int64_t* rays);
   void LookIntoPenumbrae(int32_t first, const SampleNeighbours& neighbours, int64_t* rays);
   void Share(int32_t first, const SampleNeighbours& neighbours);

@@ -19,8 +19,8 @@ constexpr float kAlike = 0.9f, kFlat = 0.25f;
 /// known of the slope across.
 constexpr double kSlopeRidge = 0.05;
 /// What is thought of the scatter before it is known: that of so many rays, each as far off as the
-/// mean is large.
-constexpr float kPriorRays = 1;
+/// mean or the usual light is large.
+constexpr float kPriorRays = 2;
 
 struct Positions {
   const std::vector<IrradianceSample>& samples;
@@ -96,7 +96,8 @@ SampleNeighbours::SampleNeighbours(const std::vector<IrradianceSample>& samples,
 }
 
 FilteredIrradiance FilterIrradiance(const std::vector<IrradianceSample>& samples,
-                                    const SampleNeighbours& neighbours, int32_t sample) {
+                                    const SampleNeighbours& neighbours, int32_t sample,
+                                    float usual) {
   // Who tells of this place.
   const IrradianceSample& own = samples[size_t(sample)];
   std::array<Neighbour, SampleNeighbours::kMost + 1> telling;
@@ -137,7 +138,7 @@ FilteredIrradiance FilterIrradiance(const std::vector<IrradianceSample>& samples
     light.irradiance[band] = std::min(most[band], std::max(least[band], light.irradiance[band]));
   }
   const Spectrum& e = light.irradiance;
-  const float prior = e.r * e.r + e.g * e.g + e.b * e.b;
+  const float prior = std::max(usual * usual, e.r * e.r + e.g * e.g + e.b * e.b);
   light.variance = (variance + kPriorRays * prior) / (rays + kPriorRays) * squareOfWeights;
   return light;
 }
