@@ -11,52 +11,76 @@ struct Axes {
   Vec3d u, v, n;
 };
 
-template <class Visit>
-void ForEachCorner(const TriangleMesh& mesh, const ClusterNode& node, const Visit& visit) {
-  for (int32_t face = node.firstFace; face < node.firstFace + node.faceCount; ++face) {
-    for (int k = 0; k < 3; ++k) visit(Vec3d(mesh.Corner(face, k)));
+/// The points of a cluster, met face by face or run by run.
+class FacePoints {
+ public:
+  FacePoints(const TriangleMesh& mesh, const ClusterNode& node, const FaceRuns* runs)
+      : mesh_(mesh), node_(node), runs_(runs) {}
+
+  int32_t FaceCount() const { return node_.faceCount; }
+  Vec3d First() const { return Vec3d(mesh_.Corner(node_.firstFace, 0)); }
+
+  /// Each once for every face about it, in the order of the faces.
+  template <class Visit>
+  void ForEachCorner(const Visit& visit) const {
+    for (int32_t face = node_.firstFace; face < node_.firstFace + node_.faceCount; ++face) {
+      for (int k = 0; k < 3; ++k) visit(Vec3d(mesh_.Corner(face, k)));
+    }
   }
-}
+  /// Each at least once.
+  template <class Visit>
+  void ForEach(const Visit& visit) const {
+    if (!runs_) return this->ForEachCorner(visit);
+    runs_->ForEachPoint(node_, [&](const Vec3f& p) { visit(Vec3d(p)); });
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  const ClusterNode& node_;
+  const FaceRuns* runs_;
+};
 
 Vec3d ToVec3d(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 /// Spreads along three axes, smallest first, with the axes in columns: eigenvalues of Z (4.5).
-Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> PrincipalAxes(const TriangleMesh& mesh,
-                                                             const ClusterNode& node) {
-  const Vec3d origin(mesh.Corner(node.firstFace, 0));
+Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> PrincipalAxes(const FacePoints& points) {
+  const Vec3d origin = points.First();
   Vec3d sum;
-  ForEachCorner(mesh, node, [&](const Vec3d& p) { sum += p - origin; });
-  const Vec3d mean = origin + sum / (3.0 * node.faceCount);  // (4.6)
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  ForEachCorner(mesh, node, [&](const Vec3d& p) {
-    const Eigen::Vector3d d(p.x - mean.x, p.y - mean.y, p.z - mean.z);
-    covariance += d * d.transpose();  // (4.5)
+  points.ForEachCorner([&](const Vec3d& p) { sum += p - origin; });
+  const Vec3d mean = origin + sum / (3.0 * points.FaceCount());  // (4.6)
+  Vec3d diagonal, mixed;                                         // (4.5): xx, yy, zz and yz, zx, xy
+  points.ForEachCorner([&](const Vec3d& p) {
+    const Vec3d d = p - mean;
+    diagonal += Vec3d(d.x * d.x, d.y * d.y, d.z * d.z);
+    mixed += Vec3d(d.y * d.z, d.z * d.x, d.x * d.y);
   });
+  Eigen::Matrix3d covariance;
+  covariance << diagonal.x, mixed.z, mixed.y, mixed.z, diagonal.y, mixed.x, mixed.y, mixed.x,
+      diagonal.z;
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance);
 }
 
 /// Axes in the plane of the unit normal n, along the minimum-area rectangle of the projected
 /// points.
-Axes RectangleAxes(const TriangleMesh& mesh, const ClusterNode& node, const Vec3d& n) {
+Axes RectangleAxes(const FacePoints& points, const Vec3d& n) {
   Vec3d u, v;
   CoordinateSystem(n, &u, &v);
-  const Vec3d origin(mesh.Corner(node.firstFace, 0));
-  std::vector<Vec2f> points;
-  points.reserve(size_t(3 * node.faceCount));
-  ForEachCorner(mesh, node, [&](const Vec3d& p) {
-    points.push_back({float(Dot(p - origin, u)), float(Dot(p - origin, v))});
+  const Vec3d origin = points.First();
+  std::vector<Vec2f> projected;
+  points.ForEach([&](const Vec3d& p) {
+    projected.push_back({float(Dot(p - origin, u)), float(Dot(p - origin, v))});
   });
-  const Vec2d axis(MinimumAreaRectangle(points).axis);
+  const Vec2d axis(MinimumAreaRectangle(projected).axis);
   return {u * axis.x + v * axis.y, v * axis.x - u * axis.y, n};
 }
 
 /// Center and extents of the points along the axes; contains each of them in float arithmetic.
-ClusterFrame FrameAlong(const Axes& axes, const TriangleMesh& mesh, const ClusterNode& node) {
+ClusterFrame FrameAlong(const Axes& axes, const FacePoints& points) {
   ClusterFrame frame;
   frame.axes = {Vec3f(axes.u), Vec3f(axes.v), Vec3f(axes.n)};
-  const Vec3d origin(mesh.Corner(node.firstFace, 0));
+  const Vec3d origin = points.First();
   Vec3d low, high;
-  ForEachCorner(mesh, node, [&](const Vec3d& p) {
+  points.ForEach([&](const Vec3d& p) {
     const Vec3d d = p - origin;
     const Vec3d along{Dot(d, axes.u), Dot(d, axes.v), Dot(d, axes.n)};
     low = Min(low, along), high = Max(high, along);
@@ -65,13 +89,13 @@ ClusterFrame FrameAlong(const Axes& axes, const TriangleMesh& mesh, const Cluste
   frame.center = Vec3f(origin + axes.u * middle.x + axes.v * middle.y + axes.n * middle.z);
 
   // The rounded center is off the middle: measure from where it came to lie, and round up.
-  ForEachCorner(mesh, node, [&](const Vec3d& p) {
-    const Vec3d d = p - Vec3d(frame.center);
-    for (int k = 0; k < 3; ++k) {
-      const float reach = float(std::abs(Dot(d, Vec3d(frame.axes[size_t(k)]))));
-      frame.halfExtent[k] = std::max(frame.halfExtent[k], reach);
-    }
+  const Vec3d center(frame.center), u(frame.axes[0]), v(frame.axes[1]), n(frame.axes[2]);
+  Vec3d reach;
+  points.ForEach([&](const Vec3d& p) {
+    const Vec3d d = p - center;
+    reach = Max(reach, {std::abs(Dot(d, u)), std::abs(Dot(d, v)), std::abs(Dot(d, n))});
   });
+  frame.halfExtent = Vec3f(reach);
   for (int k = 0; k < 3; ++k) {
     if (frame.halfExtent[k] > 0)
       frame.halfExtent[k] = std::nextafter(frame.halfExtent[k], std::numeric_limits<float>::max());
@@ -79,11 +103,9 @@ ClusterFrame FrameAlong(const Axes& axes, const TriangleMesh& mesh, const Cluste
   return frame;
 }
 
-}  // namespace
-
-ClusterFrame ComputeClusterFrame(const TriangleMesh& mesh, const ClusterNode& node) {
+ClusterFrame FrameOf(const FacePoints& points, const ClusterNode& node) {
   if (node.faceCount <= 0) return {{}, {Vec3f{1, 0, 0}, Vec3f{0, 1, 0}, Vec3f{0, 0, 1}}, {}};
-  const auto principal = PrincipalAxes(mesh, node);
+  const auto principal = PrincipalAxes(points);
   const Eigen::Vector3d spread = principal.eigenvalues();
   const Vec3d vectorArea(node.vectorArea);
   Vec3d leastSpread = Normalize(ToVec3d(principal.eigenvectors().col(0)));
@@ -99,11 +121,21 @@ ClusterFrame ComputeClusterFrame(const TriangleMesh& mesh, const ClusterNode& no
   constexpr double kPlanar = 1e-2;  // spread across the plane, relative to the smaller one within
   const bool planar = spread[0] <= kPlanar * spread[1];
   if (planar || Dot(facing, leastSpread) < 0.5) {
-    return FrameAlong(RectangleAxes(mesh, node, facing), mesh, node);
+    return FrameAlong(RectangleAxes(points, facing), points);
   }
 
   const Vec3d u = Normalize(ToVec3d(principal.eigenvectors().col(2)));
-  return FrameAlong({u, Cross(leastSpread, u), leastSpread}, mesh, node);
+  return FrameAlong({u, Cross(leastSpread, u), leastSpread}, points);
+}
+
+}  // namespace
+
+ClusterFrame ComputeClusterFrame(const TriangleMesh& mesh, const ClusterNode& node) {
+  return FrameOf({mesh, node, nullptr}, node);
+}
+
+ClusterFrame ComputeClusterFrame(const FaceRuns& runs, const ClusterNode& node) {
+  return FrameOf({runs.Mesh(), node, &runs}, node);
 }
 
 }  // namespace lambert

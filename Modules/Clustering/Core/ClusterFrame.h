@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "Clustering/Core/FaceClustering.h"
+#include "Clustering/Core/FaceRuns.h"
 #include "Common/Core/Vector.h"
 
 namespace lambert {
@@ -28,6 +29,8 @@ struct ClusterFrame {
 /// (4.5-4.7); where it is unstable (nearly planar), the vector area as normal and the minimum-area
 /// rectangle of the projected points.
 ClusterFrame ComputeClusterFrame(const TriangleMesh& mesh, const ClusterNode& node);
+/// The same, to the bit; faster for large clusters.
+ClusterFrame ComputeClusterFrame(const FaceRuns& runs, const ClusterNode& node);
 
 /// Minimum-area enclosing rectangle of points in the plane, by convex hull and rotating calipers
 /// (CGAL).

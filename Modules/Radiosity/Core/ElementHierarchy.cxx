@@ -32,6 +32,22 @@ bool EmitsSomewhere(const TriangleMesh& mesh, const ClusterNode& node) {
 
 Vec3f Oriented(const Vec3f& v, Side side) { return side == kFront ? v : -v; }
 
+/// Area-weighted means over the faces of a cluster, for the side of an element.
+void AverageMaterial(const TriangleMesh& mesh, const FaceRuns& runs, const ClusterNode& node,
+                     Element* element) {
+  Spectrum reflectance, emittance;
+  float total = 0;
+  for (int32_t face = node.firstFace; face < node.firstFace + node.faceCount; ++face) {
+    const float area = runs.Area(face);
+    total += area;
+    reflectance += mesh.reflectance[size_t(face)] * area;
+    if (mesh.Emits(face, element->side)) emittance += mesh.emittance[size_t(face)] * area;
+  }
+  if (!(total > 0)) return;
+  element->reflectance = reflectance / total;
+  element->emittance = emittance / total;
+}
+
 /// A place on a convex polygon, uniform in area where `u` and `v` are uniform in [0, 1].
 Vec3f PlaceOnPolygon(const Vec3f* corners, int count, float u, float v) {
   float areas[kMaximumPolygonCorners] = {};
@@ -92,7 +108,11 @@ ClusterFrame PolygonFrame(const Vec3f* corners, int count, const Vec3f& normal) 
 ElementHierarchy::ElementHierarchy(const Scene& scene, const ClusterTree& tree,
                                    const std::vector<uint8_t>& litSides,
                                    const LeafMeshOptions& options)
-    : scene_(scene), tree_(tree), litSides_(litSides), leafMesh_(scene.mesh, options) {
+    : scene_(scene),
+      tree_(tree),
+      litSides_(litSides),
+      leafMesh_(scene.mesh, options),
+      faceRuns_(scene.mesh) {
   // Running sums of area, to pick faces of a cluster by area.
   const TriangleMesh& mesh = scene.mesh;
   diagonal_ = mesh.Bounds().IsEmpty() ? 0 : mesh.Bounds().Diagonal();
@@ -222,23 +242,9 @@ Element ElementHierarchy::MakeFaceElement(int32_t nodeIndex, Side side, int32_t 
   element.axis = Normalize(element.vectorArea);
 
   // Material, and the cone of normals; faces too small to matter do not widen it.
-  Spectrum reflectance, emittance;
-  float cosine = 1, total = 0;
+  AverageMaterial(mesh, faceRuns_, node, &element);
   const float negligible = 1e-4f * node.area / float(node.faceCount);
-  for (int32_t face = node.firstFace; face < node.firstFace + node.faceCount; ++face) {
-    const Vec3f area = mesh.VectorArea(face);
-    const float size = Length(area);
-    total += size;
-    reflectance += mesh.reflectance[size_t(face)] * size;
-    if (mesh.Emits(face, side)) emittance += mesh.emittance[size_t(face)] * size;
-    if (size > negligible) {
-      cosine = std::min(cosine, Dot(Oriented(area, side), element.axis) / size);
-    }
-  }
-  if (total > 0) {
-    element.reflectance = reflectance / total;
-    element.emittance = emittance / total;
-  }
+  const float cosine = faceRuns_.LeastCosine(node, Oriented(element.axis, side), negligible);
   const bool hasAxis = Length(node.vectorArea) > 1e-3f * node.area;
   element.coneAngle = hasAxis ? std::acos(std::max(-1.f, std::min(1.f, cosine))) : float(kPi);
 
@@ -252,7 +258,7 @@ Element ElementHierarchy::MakeFaceElement(int32_t nodeIndex, Side side, int32_t 
     element.frame = PolygonFrame(corners, 3, element.axis);
     SamplePolygon(corners, 3, element.axis, seed, &element.samples);
   } else {
-    element.frame = ComputeClusterFrame(mesh, node);
+    element.frame = ComputeClusterFrame(faceRuns_, node);
     Random random(seed);
     for (int k = 0; k < kSamplesPerElement; ++k) {
       const double u = (k + random.UniformDouble()) / kSamplesPerElement;
@@ -376,7 +382,7 @@ void ElementHierarchy::Split(const std::vector<int32_t>& parents) {
 
   // Make them in parallel, number them in order.
   std::vector<Element> children(requests.size() * 2);
-  ParallelForEach(int64_t(children.size()), 8, [&](int64_t i) {
+  ParallelForEach(int64_t(children.size()), 1, [&](int64_t i) {
     const Request& request = requests[size_t(i / 2)];
     const Element& parent = elements_[size_t(request.parent)];
     const int32_t item = request.items[size_t(i % 2)];

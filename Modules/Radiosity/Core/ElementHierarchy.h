@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "Clustering/Core/FaceClustering.h"
+#include "Clustering/Core/FaceRuns.h"
 #include "Clustering/Core/VolumeClustering.h"
 #include "Common/Core/Random.h"
 #include "Radiosity/Core/Element.h"
@@ -77,6 +78,7 @@ class ElementHierarchy {
   const ClusterTree& tree_;
   const std::vector<uint8_t>& litSides_;
   LeafMesh leafMesh_;
+  FaceRuns faceRuns_;
   std::vector<double> areaBefore_;  ///< area of all faces before each face: picks faces by area
   std::vector<Element> elements_;
   std::vector<std::vector<int32_t>> levels_;

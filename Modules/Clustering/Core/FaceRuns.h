@@ -1,0 +1,71 @@
+// Runs of faces that follow each other in tree order: the points and normals that a large cluster
+// reaches to are found without a look at each face.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "Clustering/Core/FaceClustering.h"
+#include "Common/Core/TriangleMesh.h"
+
+namespace lambert {
+
+class FaceRuns {
+ public:
+  /// Of all faces of `mesh`, in tree order; kept by reference.
+  explicit FaceRuns(const TriangleMesh& mesh);
+
+  const TriangleMesh& Mesh() const { return mesh_; }
+  /// Of a face, m2.
+  float Area(int32_t face) const { return areas_[size_t(face)]; }
+
+  /// Calls visit(point) for the points of all faces of a cluster, each at least once.
+  template <class Visit>
+  void ForEachPoint(const ClusterNode& node, const Visit& visit) const {
+    this->ForEachPart(
+        node, [&](int32_t face, int32_t end) { this->ForEachCorner(face, end, visit); },
+        [&](const Run& run) {
+          for (const Vec3f& point : run.points) visit(point);
+        });
+  }
+
+  /// Smallest cosine between the unit vector `axis` and the front normal of a face of a cluster;
+  /// faces of up to `negligible` m2 do not count. 1 where none does.
+  float LeastCosine(const ClusterNode& node, const Vec3f& axis, float negligible) const;
+
+ private:
+  static constexpr int32_t kFaces = 256;  ///< of a run
+
+  struct Run {
+    std::vector<Vec3f> points;  ///< few of them twice
+    Vec3f axis;                 ///< unit, among its normals; zero where they turn to all sides
+    float cosine = -1;          ///< of the largest angle between the axis and one of them
+  };
+  static Run MakeRun(const TriangleMesh& mesh, int64_t face, int64_t end);
+  static float LeastCosine(const Run& run, const Vec3f& axis);
+
+  /// A cluster as whole runs, and the faces [face, end) before and after them.
+  template <class VisitFaces, class VisitRun>
+  void ForEachPart(const ClusterNode& node, const VisitFaces& visitFaces,
+                   const VisitRun& visitRun) const {
+    const int32_t end = node.firstFace + node.faceCount;
+    const int32_t firstRun = (node.firstFace + kFaces - 1) / kFaces, endRun = end / kFaces;
+    if (firstRun >= endRun) return visitFaces(node.firstFace, end);
+    visitFaces(node.firstFace, firstRun * kFaces);
+    for (int32_t run = firstRun; run < endRun; ++run) visitRun(runs_[size_t(run)]);
+    visitFaces(endRun * kFaces, end);
+  }
+
+  template <class Visit>
+  void ForEachCorner(int32_t face, int32_t end, const Visit& visit) const {
+    for (; face < end; ++face) {
+      for (int k = 0; k < 3; ++k) visit(mesh_.Corner(face, k));
+    }
+  }
+
+  const TriangleMesh& mesh_;
+  std::vector<float> areas_;
+  std::vector<Run> runs_;
+};
+
+}  // namespace lambert
