@@ -16,16 +16,17 @@
 namespace lambert {
 namespace {
 
-/// Seconds of the iterations that refined nothing: they gathered at the points of the mesh.
-double GatherSeconds(const std::vector<IterationRecord>& history) {
+/// Seconds of the iterations that refined links. Those after them refined nothing: they gathered at
+/// the points of the mesh.
+double RefinementSeconds(const std::vector<IterationRecord>& history) {
   for (size_t i = 1; i < history.size(); ++i) {
     const IterationRecord &before = history[i - 1], &record = history[i];
     if (record.threshold == before.threshold && record.links == before.links &&
         record.elements == before.elements) {
-      return history.back().seconds - before.seconds;
+      return before.seconds;
     }
   }
-  return 0;
+  return history.empty() ? 0 : history.back().seconds;
 }
 
 /// Runs a method that is one function, with its statistics.
@@ -158,9 +159,11 @@ BenchOutcome RunHierarchical(const Scene& scene, double error, const ShownObserv
   outcome.statistics = solver.Statistics();
 
   // A final gather is reconstruction, though it is done in iterations.
-  const double gather = shown ? 0 : GatherSeconds(outcome.statistics.history);
-  outcome.iterations -= gather;
-  outcome.reconstruction += gather;
+  if (!shown) {
+    const double refinement = RefinementSeconds(outcome.statistics.history);
+    outcome.reconstruction += outcome.iterations - refinement;
+    outcome.iterations = refinement;
+  }
   nameFacesOfScene(&outcome.solution);
   return outcome;
 }
