@@ -1,5 +1,6 @@
 #include "Classical/Core/SourceLight.h"
 
+#include "Classical/Core/LampPlace.h"
 #include "Common/Core/PolygonIrradiance.h"
 
 namespace lambert {
@@ -18,6 +19,22 @@ constexpr float kShortestEdge = 1e-5f;
 constexpr double kPlane[2] = {0.7548776662466927, 0.5698402909980532};
 
 double Fraction(double x) { return x - std::floor(x); }
+
+/// What of a triangle lies above the horizon of a receiver: the number of its corners, 0, 3 or 4.
+int ClipAbove(const Vec3f* triangle, const LightReceiver& at, Vec3f* corners) {
+  double height[3];
+  for (int c = 0; c < 3; ++c)
+    height[c] = Dot(Vec3d(triangle[c]) - Vec3d(at.position), Vec3d(at.normal));
+  int count = 0;
+  for (int c = 0; c < 3; ++c) {
+    const int next = (c + 1) % 3;
+    if (height[c] > 0) corners[count++] = triangle[c];
+    if ((height[c] > 0) == (height[next] > 0)) continue;
+    const double t = height[c] / (height[c] - height[next]);
+    corners[count++] = triangle[c] + (triangle[next] - triangle[c]) * float(t);
+  }
+  return count;
+}
 
 }  // namespace
 
@@ -68,13 +85,13 @@ bool SourceLight::Unblocked(const LightReceiver& at, const Vec3f& place, int64_t
 
 void SourceLight::Evaluate(const LightReceiver& at, Piece* piece) const {
   const Vec3d kernel = PolygonIrradianceAbove(piece->corners, 3, at.position, at.normal);
-  const float factor = float(std::max(0.0, Dot(kernel, Vec3d(at.normal))));
-  piece->irradiance = emitters_[size_t(piece->emitter)].exitance * factor;
+  piece->factor = float(std::max(0.0, Dot(kernel, Vec3d(at.normal))));
+  piece->irradiance = emitters_[size_t(piece->emitter)].exitance * piece->factor;
   piece->strength = piece->irradiance.Mean();
 }
 
 /// All emitters in closed form, cut until each piece is worth no more than one ray; then rays at
-/// even steps over the sum of the pieces, each for its step.
+/// even steps over the sum of the pieces, each for its step, to where its piece sends light from.
 Spectrum SourceLight::FromFewEmitters(const LightReceiver& at, int count, Random* random,
                                       int64_t* cast) const {
   // Where nothing is in the way.
@@ -82,13 +99,17 @@ Spectrum SourceLight::FromFewEmitters(const LightReceiver& at, int count, Random
   pieces.clear();
   float total = 0;
   for (size_t i = 0; i < emitters_.size(); ++i) {
-    Piece piece;
-    std::copy(emitters_[i].corners, emitters_[i].corners + 3, piece.corners);
-    piece.emitter = int32_t(i);
-    Evaluate(at, &piece);
-    if (!(piece.strength > 0)) continue;
-    total += piece.strength;
-    pieces.push_back(piece);
+    Vec3f seen[4];
+    const int corners = ClipAbove(emitters_[i].corners, at, seen);
+    for (int c = 2; c < corners; ++c) {
+      Piece piece;
+      piece.corners[0] = seen[0], piece.corners[1] = seen[c - 1], piece.corners[2] = seen[c];
+      piece.emitter = int32_t(i);
+      Evaluate(at, &piece);
+      if (!(piece.strength > 0)) continue;
+      total += piece.strength;
+      pieces.push_back(piece);
+    }
   }
   if (!(total > 0)) return {};
 
@@ -126,10 +147,8 @@ Spectrum SourceLight::FromFewEmitters(const LightReceiver& at, int count, Random
   for (const Piece& piece : pieces) {
     below += piece.strength;
     for (; ray < count && (float(ray) + first) * step < below; ++ray) {
-      const float u = random->Uniform(), v = random->Uniform();
-      const Vec2f b = UniformTriangle(u, v);
-      const Vec3f place = piece.corners[0] + (piece.corners[1] - piece.corners[0]) * b.x +
-                          (piece.corners[2] - piece.corners[0]) * b.y;
+      const Vec3f place =
+          PickLampPlace(piece.corners, at.position, at.normal, double(piece.factor), random);
       if (Unblocked(at, place, cast)) sum += piece.irradiance * (step / piece.strength);
     }
   }

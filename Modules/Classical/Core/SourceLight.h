@@ -33,11 +33,12 @@ class SourceLight {
   const Spectrum& Sky() const { return sky_; }  ///< radiance of all skies, W/(m2 sr)
 
  private:
-  /// An emitting side of a face, or a piece of it.
+  /// What of an emitting side of a face lies above the horizon, or a piece of it.
   struct Piece {
     Vec3f corners[3];      ///< counter-clockwise from the emitting side
     Spectrum irradiance;   ///< that it sends where nothing is in the way, W/m2
     float strength = 0;    ///< mean of that over the bands
+    float factor = 0;      ///< form factor from the receiver
     int32_t emitter = -1;  ///< row of emitters_
   };
   struct Emitter {

@@ -8,6 +8,7 @@
 #include "Classical/Core/ElementCache.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
+#include "Common/Core/PolygonIrradiance.h"
 #include "Common/Testing/TestScenes.h"
 #include "Visibility/Core/SolutionLookup.h"
 
@@ -281,6 +282,44 @@ TEST(CachedRadiosity, ALampTooSmallToBeCut) {
     const double expected = 0.5 / (16 * kPi);
     EXPECT_NEAR(sources.FromEmitters(below, 64, &random, &cast).g / expected, 1, 0.125);
     EXPECT_GT(cast, 0);
+  }
+}
+
+// A place closely below a large lamp looks up through a short shaft. What it sees is a speck of the
+// lamp, and sends most of the light, all of it in closed form. Upright, tilted, and facing a wall
+// of the shaft, so that the lamp stands half below the horizon.
+TEST(CachedRadiosity, NearALampWhatIsNearCounts) {
+  constexpr float kRim = 0.0099f, kHeight = 0.01f, kHalf = 0.02f, kSeen = kHalf * kHeight / kRim;
+  Scene scene;
+  TriangleMesh& mesh = scene.mesh;
+  testing::AddQuad(&mesh, {-1, -1, kHeight}, {0, 2, 0}, {2, 0, 0}, Spectrum(0.f), Spectrum(1.f));
+  for (const float side : {-kHalf, kHalf}) {
+    testing::AddQuad(&mesh, {side, -kHalf, 0}, {0, 2 * kHalf, 0}, {0, 0, kRim}, Spectrum(0.f));
+    testing::AddQuad(&mesh, {-kHalf, side, 0}, {2 * kHalf, 0, 0}, {0, 0, kRim}, Spectrum(0.f));
+  }
+  testing::CompleteTables(&scene);
+  const RayScene rays(scene.mesh);
+  const SourceLight sources(scene, rays);
+  const Vec3f seen[4] = {{-kSeen, -kSeen, kHeight},
+                         {-kSeen, kSeen, kHeight},
+                         {kSeen, kSeen, kHeight},
+                         {kSeen, -kSeen, kHeight}};
+  Random random(1);
+  int64_t cast = 0;
+  for (const Vec3f& direction : {Vec3f(0, 0, 1), Vec3f(1, 0, 1), Vec3f(1, 0.5f, 0)}) {
+    const Vec3f normal = Normalize(direction);
+    const LightReceiver at{{0, 0, 0}, normal, normal};
+    const double expected =
+        Dot(PolygonIrradianceAbove(seen, 4, at.position, normal), Vec3d(normal));
+    for (const int count : {1, 16}) {
+      const int tries = 16384 / count;
+      double sum = 0;
+      for (int i = 0; i < tries; ++i) {
+        sum += double(sources.FromEmitters(at, count, &random, &cast).g) / tries;
+      }
+      // At worst half of 16384 rays arrive: some 4 standard errors.
+      EXPECT_NEAR(sum / expected, 1, 0.03) << normal.x << ' ' << normal.y << ' ' << count;
+    }
   }
 }
 
