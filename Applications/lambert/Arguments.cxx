@@ -148,6 +148,8 @@ void SolveArguments::AddTo(CLI::App* command) {
       ->check(Within(1e-3, 1e9, "from 0.001 to 1e9"));
   command->add_option("--iterations", solver.iterations, "Iterations after which to end")
       ->check(CLI::Range(1, 1000000));
+  command->add_flag("!--no-final-gather", solver.finalGather,
+                    "Deliver what links brought, without gathering anew at the points");
   command->add_option("--threads", threads, "Threads; 0: all processors")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

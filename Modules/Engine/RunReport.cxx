@@ -116,6 +116,7 @@ Json MethodJson(const RadiosityRunOptions& options) {
     method["error"] = options.solver.error;
     method["time"] = options.timeLimit;
     method["iterations"] = options.solver.iterations;
+    method["final_gather"] = options.solver.finalGather;
   }
   for (const auto& [name, value] : ValuesOf(options.method)) {
     method[name] = value == std::floor(value) ? Json(static_cast<int64_t>(value)) : Json(value);

@@ -7,7 +7,9 @@
 namespace lambert {
 const std::vector<SolveMethodTraits>& SolveMethods() {
   static const std::vector<SolveMethodTraits> methods{
-      {SolveMethod::Hierarchical, "hierarchical", {"--error", "--time", "--iterations"}},
+      {SolveMethod::Hierarchical,
+       "hierarchical",
+       {"--error", "--time", "--iterations", "--no-final-gather"}},
       {SolveMethod::Reference, "reference", {"--samples", "--seed"}},
       {SolveMethod::Matrix, "matrix", {"--element-size"}},
       {SolveMethod::Progressive, "progressive", {"--element-size"}},

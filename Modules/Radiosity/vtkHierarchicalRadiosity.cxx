@@ -30,6 +30,7 @@ lambertOptionMacro(Error, double, error);
 lambertOptionMacro(TimeLimit, double, timeLimit);
 lambertOptionMacro(Iterations, int, iterations);
 lambertOptionMacro(VerificationPoints, int, verificationPoints);
+lambertOptionMacro(FinalGather, bool, finalGather);
 #undef lambertOptionMacro
 
 namespace {
@@ -103,5 +104,6 @@ void vtkHierarchicalRadiosity::PrintSelf(ostream& os, vtkIndent indent) {
   os << indent << "Error: " << this->GetError() << "\n"
      << indent << "TimeLimit: " << this->GetTimeLimit() << "\n"
      << indent << "Iterations: " << this->GetIterations() << "\n"
-     << indent << "VerificationPoints: " << this->GetVerificationPoints() << "\n";
+     << indent << "VerificationPoints: " << this->GetVerificationPoints() << "\n"
+     << indent << "FinalGather: " << this->GetFinalGather() << "\n";
 }

@@ -53,6 +53,12 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   void SetVerificationPoints(int points);
   int GetVerificationPoints();
   ///@}
+  ///@{ Whether light is gathered anew at the points of the mesh in the end; default on. Off: what
+  /// links brought is delivered, sooner and less exact; verified and refined on all the same.
+  void SetFinalGather(bool gather);
+  bool GetFinalGather();
+  vtkBooleanMacro(FinalGather, bool);
+  ///@}
 
  protected:
   vtkHierarchicalRadiosity();

@@ -19,7 +19,7 @@ def irradiance(name):
 
 # The default is hierarchical, and says so.
 report = solve(CORNELL_BOX, "-o", out, "--error", "0.3", "--iterations", "1")
-assert report["method"] == {"name": "hierarchical", "error": 0.3, "time": 0, "iterations": 1}, report["method"]
+assert report["method"] == {"name": "hierarchical", "error": 0.3, "time": 0, "iterations": 1, "final_gather": True}, report["method"]
 assert report["requested_error"] == 0.3 and "clustering" in report and "energy_w" in report
 
 # The reference lights the vertices of the mesh as it is, without clusters.
@@ -56,7 +56,7 @@ for method, options, values in (
 # An option of another method is wrong usage, said in one sentence that names both.
 for method, options in (("hierarchical", ["--samples", "--seed", "--element-size", "--output-size", "--paths", "--gather-rays",
                                          "--emitter-rays"]),
-                        ("reference", ["--error", "--time", "--iterations", "--element-size", "--paths", "--gather-rays"]),
+                        ("reference", ["--error", "--time", "--iterations", "--no-final-gather", "--element-size", "--paths", "--gather-rays"]),
                         ("matrix", ["--error", "--samples", "--seed", "--output-size", "--paths", "--gather-rays"]),
                         ("progressive", ["--error", "--samples", "--seed", "--paths", "--gather-rays", "--emitter-rays"]),
                         ("cached", ["--error", "--time", "--iterations", "--samples"])):

@@ -41,6 +41,13 @@ for share in (1.2, 1.5, 2.0, 3.0):
     if error is not None and error <= 0.9 * 0.2:
         assert timed["stopped_by"] == "error", (share, timed["stopped_by"], error)
 
+# Without final gather every iteration refines links, and the request is verified and met by what they bring.
+by_links = solve(CORNELL_BOX, "-o", out, "--error", "0.2", "--no-final-gather")
+assert by_links["method"]["final_gather"] is False and by_links["stopped_by"] == "error"
+thresholds = [entry["threshold"] for entry in by_links["history"]]
+assert all(later < earlier for earlier, later in zip(thresholds, thresholds[1:])), thresholds
+assert 0 < by_links["history"][-1]["error"] <= 0.2 and by_links["rays"] < whole["rays"]
+
 # A coarser run is cheaper; the files below are of two iterations.
 report = solve(CORNELL_BOX, "-o", out, "--error", "0.3", "--iterations", "2")
 assert report["links"]["total"] < whole["links"]["total"]

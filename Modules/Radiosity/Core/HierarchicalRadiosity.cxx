@@ -39,14 +39,28 @@ constexpr int kGrowthSweeps = 10;
 /// Threshold, as a fraction of the power, to which links are refined for a wanted relative error.
 /// The final gather sees leaves from afar: they may be coarser than what is delivered, but below a
 /// tenth their four samples miss the bright places of a room; measured (Documentation/Stages).
-double FinalThreshold(double error) { return 1.6e-5 * std::pow(std::min(error, 0.1) / 0.05, 1.5); }
+double FinalThreshold(const HierarchicalRadiosityOptions& options) {
+  const double error = options.finalGather ? std::min(options.error, 0.1) : options.error;
+  return 1.6e-5 * std::pow(error / 0.05, 1.5);
+}
 
-/// Share of the progress that the final gather takes.
-constexpr double kGatherShare = 0.6;
-/// Gathers, each with its rounds of cuts, before it is said that the error cannot be met; and what
-/// the error must fall to in one for another to be worth it.
-constexpr double kLeastGain = 0.9;
+/// Shares of the progress: of the final gather, or else of links beyond the usual threshold.
+constexpr double kGatherShare = 0.6, kFurtherShare = 0.5;
+/// Progress after `done` iterations of links, where the usual threshold takes `usual`; each one
+/// beyond it halves what is left.
+double LinkProgress(const HierarchicalRadiosityOptions& options, double done, int usual) {
+  if (options.finalGather) return (1 - kGatherShare) * std::min(1.0, done / usual);
+  if (options.verificationPoints == 0) return std::min(1.0, done / usual);
+  return done < usual ? (1 - kFurtherShare) * done / usual
+                      : 1 - kFurtherShare * std::exp2(usual - done);
+}
+
+/// Gathers, each with its rounds of cuts, before it is said that the error cannot be met.
 constexpr int kMostGathers = 4;
+/// What the error must fall to for another attempt to be worth it, and the attempts in a row that
+/// have to fail to; a single iteration of links may gain nothing and the next one much.
+constexpr double kLeastGain = 0.9;
+constexpr int kGatherPatience = 1, kLinkPatience = 2;
 /// An error counts as met a little below the request: the points that verify it are a sample.
 constexpr double kVerifiedBelow = 0.95;
 /// The next gather aims this far below the wanted error.
@@ -119,6 +133,42 @@ double SourcePower(const Scene& scene) {
   return double(power.MaxBand());
 }
 
+/// Verifies what is delivered time and again, until it is what was asked for or gets no better.
+class Verification {
+ public:
+  /// Gives up after `patience` attempts in a row that gain too little. All by reference.
+  Verification(const Scene& scene, const HierarchicalRadiosityOptions& options, int patience)
+      : scene_(scene), options_(options), patience_(patience) {}
+
+  /// Error of `solution`, the one that counts.
+  double Measure(const RadiositySolution& solution) {
+    // Another set of points each time, or the second would be chosen by the first.
+    SolutionErrorOptions verification;
+    verification.points = options_.verificationPoints;
+    verification.samples = kVerificationSamples;
+    verification.seed = HashBits(0x76657269u, uint64_t(++attempts_));
+    error_ = MeasureSolutionError(scene_, solution, verification).Counting();
+    const bool isBetter = attempts_ == 1 || error_ <= kLeastGain * best_;
+    if (isBetter) best_ = error_;
+    idle_ = isBetter ? 0 : idle_ + 1;
+    return error_;
+  }
+
+  double Error() const { return error_; }
+  /// Why to stop: "error" or "floor"; empty: go on. What is not verified counts as met.
+  std::string Verdict() const {
+    if (error_ <= kVerifiedBelow * options_.error) return "error";
+    return idle_ >= patience_ ? "floor" : "";
+  }
+
+ private:
+  const Scene& scene_;
+  const HierarchicalRadiosityOptions& options_;
+  const int patience_;
+  int attempts_ = 0, idle_ = 0;
+  double error_ = -1, best_ = 0;
+};
+
 }  // namespace
 
 /// The scene as it is, where it is what the solver needs.
@@ -162,11 +212,19 @@ struct HierarchicalRadiosity::Implementation {
   ElementLight light;
   LinkNetwork network;
   std::vector<Exposure> exposures;
-  std::optional<RadiositySolution> gathered;  ///< of the last iteration of final gather
+  std::optional<RadiositySolution> delivered;  ///< once gathered or verified
+  Timer clock;                                 ///< since the run began
   double
       received;  ///< power that the leaves receive, W, largest band; thresholds are fractions of it
 
+  bool RefineAndExchange(double last, double* threshold, double* change,
+                         const ProgressCallback& progress);
   double Exchange(double tolerance);
+  RadiositySolution Reconstruct();
+  bool EndsVerified(Verification* verification);
+  bool HasTimeFor(double seconds) const {
+    return !(options.timeLimit > 0 && clock.Seconds() + seconds > options.timeLimit);
+  }
   double PredictGatherSeconds() const;
   void Count();
 };
@@ -181,66 +239,75 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
                                 const IterationObserver& observer) {
   Implementation& self = *implementation_;
   SolverStatistics& statistics = self.statistics;
-  const Timer timer;
-  const double last = FinalThreshold(self.options.error);
-  const int iterations = std::max(
+  self.clock.Restart();
+  double last = FinalThreshold(self.options), threshold = kFirstThreshold;
+  const int usual = std::max(
       1, 1 + int(std::ceil(std::log(last / kFirstThreshold) / std::log(kThresholdFactor))));
-  double threshold = kFirstThreshold;
-  for (int iteration = 1;; ++iteration) {
+  Verification verification(self.scene, self.options, kLinkPatience);
+  for (int iteration = 1; statistics.stoppedBy.empty(); ++iteration) {
     const Timer iterationTimer;
-    const double done = double(iteration - 1) / iterations, share = 1.0 / iterations;
     const ProgressCallback part = [&](double fraction, const char* stage) {
-      return Report(progress, (1 - kGatherShare) * std::min(1.0, done + share * fraction), stage);
+      return Report(progress, LinkProgress(self.options, iteration - 1 + fraction, usual), stage);
     };
-
-    // Refine, then let light bounce; the first iteration goes on until there is light to show.
     double change = 0;
-    bool whole = true;
-    for (;; threshold *= kThresholdFactor) {
-      threshold = std::max(last, threshold);
-      whole = RefineLinks(threshold * self.received, self.rayScene, &self.hierarchy, &self.light,
-                          &self.network, part);
-      if (!whole) break;
-      change = self.Exchange(threshold <= last ? kLastSweepTolerance : kSweepTolerance);
-      if (threshold <= last || ReceivedPower(self.hierarchy, self.light) > 0) break;
-    }
-    if (!whole) {
+    if (!self.RefineAndExchange(last, &threshold, &change, part)) {
       statistics.stoppedBy = "interrupt";
       break;
     }
-    const bool isLast = threshold <= last;
-    SplitByExposure(kExposureThreshold * threshold * self.received, self.rayScene, &self.hierarchy,
-                    &self.light, &self.network, &self.exposures);
-    self.network.incoming.resize(size_t(self.hierarchy.Size()));
-    self.Exchange(isLast ? kLastSweepTolerance : kSweepTolerance);
-    self.received = std::max(self.received, ReceivedPower(self.hierarchy, self.light));
 
     // The border of an iteration: the only place where a run ends.
-    statistics.history.push_back({iteration, timer.Seconds(), threshold, self.hierarchy.Size(),
+    statistics.history.push_back({iteration, self.clock.Seconds(), threshold, self.hierarchy.Size(),
                                   self.network.Count(), self.network.rays, change});
-    const bool goOn = !observer || observer(statistics.history.back());
+    const bool goOn = (!observer || observer(statistics.history.back())) && part(1, "iterating");
     if (self.options.iterations > 0 && iteration >= self.options.iterations) {
       statistics.stoppedBy = "iterations";
-    } else if (!goOn ||
-               !Report(progress, (1 - kGatherShare) * std::min(1.0, double(iteration) / iterations),
-                       "iterating")) {
-      statistics.stoppedBy = "interrupt";
-    } else if (isLast && self.options.timeLimit > 0 &&
-               timer.Seconds() + self.PredictGatherSeconds() > self.options.timeLimit) {
-      statistics.stoppedBy = "time";
-    } else if (isLast) {
-      this->GatherUntilMet(progress, observer);
-    } else if (self.options.timeLimit > 0 &&
-               timer.Seconds() + iterationTimer.Seconds() > self.options.timeLimit) {
-      statistics.stoppedBy = "time";
-    } else {
-      threshold *= kThresholdFactor;
-      continue;
+      break;
     }
-    break;
+    if (!goOn) {
+      statistics.stoppedBy = "interrupt";
+      break;
+    }
+
+    // Links as fine as the request usually asks for: gather, or see whether they are good enough.
+    if (threshold <= last && self.options.finalGather) {
+      if (self.options.timeLimit > 0 && !self.HasTimeFor(self.PredictGatherSeconds())) {
+        statistics.stoppedBy = "time";
+      } else {
+        this->GatherUntilMet(progress, observer);
+      }
+      break;
+    }
+    if (threshold <= last) {
+      if (self.EndsVerified(&verification)) break;
+      last = threshold * kThresholdFactor;
+    }
+    if (!self.HasTimeFor(iterationTimer.Seconds())) statistics.stoppedBy = "time";
+    threshold *= kThresholdFactor;
   }
   self.Count();
   MeasureEnergyBalance(self.hierarchy, self.network, self.light, self.rayScene, &statistics);
+}
+
+// Refines links to `threshold`, not below `last`, and lets light bounce; where there is none to
+// show, goes on at once. False, with the links as they were, where `progress` asked to stop.
+bool HierarchicalRadiosity::Implementation::RefineAndExchange(double last, double* threshold,
+                                                              double* change,
+                                                              const ProgressCallback& progress) {
+  for (;; *threshold *= kThresholdFactor) {
+    *threshold = std::max(last, *threshold);
+    if (!RefineLinks(*threshold * received, rayScene, &hierarchy, &light, &network, progress)) {
+      return false;
+    }
+    delivered.reset();
+    *change = this->Exchange(*threshold <= last ? kLastSweepTolerance : kSweepTolerance);
+    if (*threshold <= last || ReceivedPower(hierarchy, light) > 0) break;
+  }
+  SplitByExposure(kExposureThreshold * *threshold * received, rayScene, &hierarchy, &light,
+                  &network, &exposures);
+  network.incoming.resize(size_t(hierarchy.Size()));
+  this->Exchange(*threshold <= last ? kLastSweepTolerance : kSweepTolerance);
+  received = std::max(received, ReceivedPower(hierarchy, light));
+  return true;
 }
 
 // Bounces until they settle. Sampled row sums scatter about 1 without bias; where a loose bound on
@@ -311,18 +378,34 @@ void HierarchicalRadiosity::Implementation::Count() {
   }
 }
 
+// Light at the points of the mesh by the links alone.
+RadiositySolution HierarchicalRadiosity::Implementation::Reconstruct() {
+  const LightReconstruction reconstruction(hierarchy, network, light, rayScene);
+  const RefinedMesh mesh(&hierarchy, litSides);
+  return mesh.Deliver(mesh.Light(reconstruction, &network.rays));
+}
+
+// Verifies what is delivered; true, with the reason, where that ends the run.
+bool HierarchicalRadiosity::Implementation::EndsVerified(Verification* verification) {
+  if (options.verificationPoints > 0) {
+    if (!delivered) delivered = this->Reconstruct();
+    statistics.history.back().error = verification->Measure(*delivered);
+  }
+  statistics.stoppedBy = verification->Verdict();
+  return !statistics.stoppedBy.empty();
+}
+
 // A final gather, on a finer and finer mesh, until the error that was asked for is verified. Each
 // gather and each round of cuts is an iteration.
 void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
                                            const IterationObserver& observer) {
   Implementation& self = *implementation_;
   SolverStatistics& statistics = self.statistics;
-  const double before = statistics.history.back().seconds;
-  const Timer timer;
   const int rounds = self.options.cutsTriangles ? kCuttingRounds : 0;
-  double aim = self.options.error, lastError = 0;
+  double aim = self.options.error;
+  Verification verification(self.scene, self.options, kGatherPatience);
   std::optional<GatheredSolution> solution;
-  for (int gather = 1;; ++gather) {
+  for (int gather = 1; gather <= kMostGathers; ++gather) {
     for (int round = 0; round <= rounds; ++round) {
       const Timer iterationTimer;
       const ProgressCallback part = [&](double fraction, const char* stage) {
@@ -339,7 +422,7 @@ void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
         } else if (!solution->Cut(kInterpolationShare * aim, part)) {
           break;
         }
-        self.gathered = solution->Deliver();
+        self.delivered = solution->Deliver();
       } catch (const Cancelled&) {
         statistics.stoppedBy = "interrupt";
         return;
@@ -348,7 +431,7 @@ void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
       // The border of an iteration.
       IterationRecord record = statistics.history.back();
       ++record.iteration;
-      record.seconds = before + timer.Seconds();
+      record.seconds = self.clock.Seconds();
       record.rays = self.network.rays;
       record.error = -1;
       statistics.history.push_back(record);
@@ -358,42 +441,22 @@ void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
         statistics.stoppedBy = "iterations";
       } else if (!goOn) {
         statistics.stoppedBy = "interrupt";
-      } else if (self.options.timeLimit > 0 &&
-                 before + timer.Seconds() + next > self.options.timeLimit) {
+      } else if (!self.HasTimeFor(next)) {
         statistics.stoppedBy = "time";
       } else {
         continue;
       }
       return;
     }
-
-    // Verify; another set of points each time, or the second would be chosen by the first.
-    double error = -1;
-    if (self.options.verificationPoints > 0) {
-      SolutionErrorOptions verification;
-      verification.points = self.options.verificationPoints;
-      verification.samples = kVerificationSamples;
-      verification.seed = HashBits(0x76657269u, uint64_t(gather));
-      error = MeasureSolutionError(self.scene, *self.gathered, verification).Counting();
-    }
-    statistics.history.back().error = error;
-    const bool isMet = error <= kVerifiedBelow * self.options.error;
-    const bool isStuck = gather > 1 && error > kLeastGain * lastError;
-    lastError = error;
-    if (isMet || isStuck || gather == kMostGathers) {
-      statistics.stoppedBy = isMet ? "error" : "floor";
-      return;
-    }
-    aim *= std::min(0.8, std::max(0.35, kAimBelow * self.options.error / error));
+    if (self.EndsVerified(&verification)) return;
+    aim *= std::min(0.8, std::max(0.35, kAimBelow * self.options.error / verification.Error()));
   }
+  statistics.stoppedBy = "floor";
 }
 
 RadiositySolution HierarchicalRadiosity::Solution() const {
   Implementation& self = *implementation_;
-  if (self.gathered) return *self.gathered;
-  const LightReconstruction light(self.hierarchy, self.network, self.light, self.rayScene);
-  const RefinedMesh mesh(&self.hierarchy, self.litSides);
-  return mesh.Deliver(mesh.Light(light, &self.network.rays));
+  return self.delivered ? *self.delivered : self.Reconstruct();
 }
 
 const SolverStatistics& HierarchicalRadiosity::Statistics() const {

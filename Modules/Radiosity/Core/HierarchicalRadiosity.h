@@ -24,6 +24,9 @@ struct HierarchicalRadiosityOptions {
   /// Whether the final gather cuts triangles where interpolation between their corners fails. Where
   /// only light at the vertices is wanted that is work for nothing.
   bool cutsTriangles = true;
+  /// Whether light is gathered anew at the points of the mesh in the end; without it what links
+  /// brought is delivered, sooner and less exact.
+  bool finalGather = true;
   LeafMeshOptions leafMesh;
 };
 
@@ -42,8 +45,9 @@ class HierarchicalRadiosity {
 
   /// Gather, push-pull, refine with a falling threshold (thesis figure 4.10); then final gather at
   /// the points of the mesh, in iterations of cuts, verified after the last of them and improved
-  /// until the wanted error is met or a stop comes before. A cancelled run keeps the state of its
-  /// last whole iteration; `Statistics().stoppedBy` says why it ended.
+  /// until the wanted error is met or a stop comes before. Without final gather links are verified
+  /// and refined on instead. A cancelled run keeps the state of its last whole iteration;
+  /// `Statistics().stoppedBy` says why it ended.
   void Run(const ProgressCallback& progress = {}, const IterationObserver& observer = {});
 
   /// The displayable solution as it stands: that of the final gather once there is one, before it

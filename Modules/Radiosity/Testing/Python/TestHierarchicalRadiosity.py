@@ -57,14 +57,18 @@ def light_at_points(method):
 method = lambert.vtkHierarchicalRadiosity()
 assert isinstance(method, lambert.vtkRadiosityAlgorithm)
 for name, default, other in (("Error", 0.05, 0.2), ("TimeLimit", 0.0, 60.0), ("Iterations", 0, 7),
-                             ("VerificationPoints", 2000, 0), ("NumberOfThreads", 0, 2)):
+                             ("VerificationPoints", 2000, 0), ("FinalGather", True, False), ("NumberOfThreads", 0, 2)):
     assert getattr(method, "Get" + name)() == default, name
     getattr(method, "Set" + name)(other)
     assert getattr(method, "Get" + name)() == other, name
 assert method.GetSky() == (0, 0, 0)
 method.SetSky(1, 2, 3)
 assert method.GetSky() == (1, 2, 3)
-assert method.GetStoppedBy() == "" and "VerificationPoints: 0" in str(method)
+method.FinalGatherOn()
+assert method.GetFinalGather()
+method.FinalGatherOff()
+assert not method.GetFinalGather()
+assert method.GetStoppedBy() == "" and "VerificationPoints: 0" in str(method) and "FinalGather: 0" in str(method)
 assert method.GetNumberOfInputPorts() == 2 and method.GetNumberOfOutputPorts() == 3
 
 # Ports: refined mesh, history, input with light.
@@ -132,6 +136,16 @@ unverified.SetVerificationPoints(0)
 unverified.Update()
 assert (vtk_to_numpy(unverified.GetOutputDataObject(1).GetColumnByName("error")) == -1).all()
 assert unverified.GetStoppedBy() == "error"
+
+# Without final gather every iteration refines links, and what they bring is verified all the same.
+by_links = lambert.vtkHierarchicalRadiosity()
+by_links.SetInputData(scene)
+by_links.SetError(0.3)
+by_links.FinalGatherOff()
+by_links.Update()
+thresholds = vtk_to_numpy(by_links.GetOutputDataObject(1).GetColumnByName("threshold"))
+assert (np.diff(thresholds) < 0).all() and by_links.GetStoppedBy() == "error"
+assert 0 <= vtk_to_numpy(by_links.GetOutputDataObject(1).GetColumnByName("error"))[-1] <= 0.3
 
 # An abort after the first iteration keeps that iteration.
 aborted = lambert.vtkHierarchicalRadiosity()
