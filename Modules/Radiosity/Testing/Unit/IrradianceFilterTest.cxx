@@ -107,8 +107,19 @@ TEST(IrradianceFilter, LeavesALoneSampleAsItIs) {
   const std::vector<IrradianceSample> samples(1, lone);
   const FilteredIrradiance light = FilterIrradiance(samples, SampleNeighbours(samples, 0), 0);
   EXPECT_EQ(light.irradiance, lone.irradiance);
-  // 4 rays of variance 8 and one, thought of beforehand, of |E|^2 = 14: their mean over 4 rays.
-  EXPECT_NEAR(light.variance, (4 * 8 + 14) / 5.0 / 4, 1e-5);
+  // 4 rays of variance 8 and two, thought of beforehand, of |E|^2 = 14: their mean over 4 rays.
+  EXPECT_NEAR(light.variance, (4 * 8 + 2 * 14) / 6.0 / 4, 1e-5);
+}
+
+// Rays that all found the same are still as uncertain as light usually is, the fewer they are.
+TEST(IrradianceFilter, FewRaysThatFindNothingAreNotSureOfIt) {
+  IrradianceSample dark;
+  dark.normal = {0, 0, 1};
+  dark.rays = 8, dark.reach = 1;
+  const std::vector<IrradianceSample> samples(1, dark);
+  const FilteredIrradiance light = FilterIrradiance(samples, SampleNeighbours(samples, 0), 0, 3);
+  EXPECT_EQ(light.irradiance, Spectrum());
+  EXPECT_NEAR(light.variance, 2 * 9 / 10.0 / 8, 1e-5);
 }
 
 }  // namespace
