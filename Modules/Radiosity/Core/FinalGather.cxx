@@ -24,9 +24,6 @@ constexpr float kNear = 1;
 /// A place on a leaf is at most so many times as bright as the leaf, or as leaves are in the mean:
 /// one whose samples are all hidden tells nothing of a place that is not.
 constexpr float kMostOfLeaf = 16, kMostOfMean = 20;
-/// A sample of a leaf that receives less than this part of what its brightest one does is taken
-/// for hidden; places that are seen are not.
-constexpr float kHidden = 0.01f;
 /// A facet that turns within a leaf receives up to this many times what its nearest sample does.
 constexpr float kMostTurned = 2;
 /// Normals whose cosine is larger than this look the same way.
@@ -290,15 +287,12 @@ Spectrum FinalGather::IrradianceOfLeaf(int32_t leaf, const Vec3f& place,
   const Element& element = hierarchy_[leaf];
   if (hasGathered_[size_t(leaf)]) {
     const auto& atSample = sampleIrradiance_[size_t(leaf)];
-    float brightest = 0;
-    for (const Spectrum& e : atSample) brightest = std::max(brightest, e.Mean());
     int nearest = -1;
     float least = std::numeric_limits<float>::max();
     for (int k = 0; k < kSamplesPerElement; ++k) {
       const SurfaceSample& sample = element.samples[size_t(k)];
       const float distance = LengthSquared(sample.position - place);
       if (distance >= least || Dot(sample.normal, normal) < kSameWay) continue;
-      if (atSample[size_t(k)].Mean() < kHidden * brightest) continue;
       nearest = k;
       least = distance;
     }
