@@ -23,7 +23,7 @@ constexpr double kUnknownClear = 0.25;
 /// any other one a multiple between these.
 constexpr double kUsualScatter = 0.25, kLeastByScatter = 0.25, kMostByScatter = 8;
 /// Rays to emitters that a point may be given at once, where it is asked for more.
-constexpr int kMostDirectRays = 256;
+constexpr int kMostDirectRays = 64;
 /// Neighbours whose shadows tell of a point's own, where there are at least the first number: what
 /// fewer find in narrow places may all be chance.
 constexpr int kLeastShadowNeighbours = 8, kShadowNeighbours = 12;
