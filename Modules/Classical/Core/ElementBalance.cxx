@@ -42,8 +42,8 @@ void AddEscaping(const ElementSides& sides, const SideLight& light, const RaySce
                         leavingUpTo.begin()));
     const ExchangeTriangle& triangle = sides.triangles[side];
     const Vec2f b = UniformTriangle(random.Uniform(), random.Uniform());
-    const Vec3f& p = triangle.corners[0];
-    const Vec3f x = p + (triangle.corners[1] - p) * b.x + (triangle.corners[2] - p) * b.y;
+    const Vec3f x =
+        PlaceOnTriangle(triangle.corners[0], triangle.corners[1], triangle.corners[2], b);
     Vec3f u, v;
     CoordinateSystem(triangle.normal, &u, &v);
     const Vec3f d = CosineHemisphere(random.Uniform(), random.Uniform());

@@ -21,9 +21,8 @@ std::array<Vec3f, kPlacesPerElement> SamplesOn(const ExchangeTriangle& triangle,
   Random random(HashBits(uint64_t(key), 0x73616d70ull));
   for (size_t part = 0; part < parts.size(); ++part) {
     const float u = random.Uniform(), v = random.Uniform();
-    const Vec2f weights = UniformTriangle(u, v);
     const auto& [p, q, r] = parts[part];
-    samples[part] = p + (q - p) * weights.x + (r - p) * weights.y;
+    samples[part] = PlaceOnTriangle(p, q, r, UniformTriangle(u, v));
   }
   return samples;
 }

@@ -99,8 +99,7 @@ Vec3f PickLampPlace(const Vec3f* corners, const Vec3f& position, const Vec3f& no
   const double distance = triangle.Distance(direction);
   if (distance > 0 && std::isfinite(distance)) return Vec3f(Vec3d(position) + direction * distance);
   const float u = random->Uniform(), v = random->Uniform();
-  const Vec2f b = UniformTriangle(u, v);
-  return corners[0] + (corners[1] - corners[0]) * b.x + (corners[2] - corners[0]) * b.y;
+  return PlaceOnTriangle(corners[0], corners[1], corners[2], UniformTriangle(u, v));
 }
 
 }  // namespace lambert

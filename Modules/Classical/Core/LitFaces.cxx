@@ -70,9 +70,9 @@ class LightSeeker {
 LightReceiver PlaceOn(const UniformMesh& mesh, int64_t element, Side side, float clearance,
                       Random* random) {
   const Vec2f b = UniformTriangle(random->Uniform(), random->Uniform());
-  const Vec3f& p = mesh.Corner(element, 0);
   LightReceiver at;
-  at.position = p + (mesh.Corner(element, 1) - p) * b.x + (mesh.Corner(element, 2) - p) * b.y;
+  at.position =
+      PlaceOnTriangle(mesh.Corner(element, 0), mesh.Corner(element, 1), mesh.Corner(element, 2), b);
   at.normal = Normalize(mesh.VectorArea(element)) * (side == kBack ? -1.f : 1.f);
   at.geometric = at.normal;
   at.position += at.normal * clearance;

@@ -21,19 +21,12 @@ constexpr double kPlane[2] = {0.7548776662466927, 0.5698402909980532};
 double Fraction(double x) { return x - std::floor(x); }
 
 /// What of a triangle lies above the horizon of a receiver: the number of its corners, 0, 3 or 4.
-int ClipAbove(const Vec3f* triangle, const LightReceiver& at, Vec3f* corners) {
+int ClipAtHorizon(const Vec3f* triangle, const LightReceiver& at, Vec3f* corners) {
   double height[3];
-  for (int c = 0; c < 3; ++c)
-    height[c] = Dot(Vec3d(triangle[c]) - Vec3d(at.position), Vec3d(at.normal));
-  int count = 0;
   for (int c = 0; c < 3; ++c) {
-    const int next = (c + 1) % 3;
-    if (height[c] > 0) corners[count++] = triangle[c];
-    if ((height[c] > 0) == (height[next] > 0)) continue;
-    const double t = height[c] / (height[c] - height[next]);
-    corners[count++] = triangle[c] + (triangle[next] - triangle[c]) * float(t);
+    height[c] = Dot(Vec3d(triangle[c]) - Vec3d(at.position), Vec3d(at.normal));
   }
-  return count;
+  return ClipAbove(triangle, height, 3, corners);
 }
 
 }  // namespace
@@ -100,7 +93,7 @@ Spectrum SourceLight::FromFewEmitters(const LightReceiver& at, int count, Random
   float total = 0;
   for (size_t i = 0; i < emitters_.size(); ++i) {
     Vec3f seen[4];
-    const int corners = ClipAbove(emitters_[i].corners, at, seen);
+    const int corners = ClipAtHorizon(emitters_[i].corners, at, seen);
     for (int c = 2; c < corners; ++c) {
       Piece piece;
       piece.corners[0] = seen[0], piece.corners[1] = seen[c - 1], piece.corners[2] = seen[c];

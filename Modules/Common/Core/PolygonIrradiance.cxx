@@ -69,15 +69,7 @@ Vec3d PolygonIrradianceAbove(const Vec3f* corners, int count, const Vec3f& x,
 
   // Clip at the horizon.
   Vec3d clipped[kMaximumPolygonCorners + 1];
-  int kept = 0;
-  for (int i = 0; i < count; ++i) {
-    const int next = i + 1 < count ? i + 1 : 0;
-    if (height[i] > 0) clipped[kept++] = p[i];
-    if ((height[i] > 0) != (height[next] > 0)) {
-      const double t = height[i] / (height[i] - height[next]);
-      clipped[kept++] = p[i] + (p[next] - p[i]) * t;
-    }
-  }
+  const int kept = ClipAbove(p, height, count, clipped);
   return EdgeSum(clipped, kept) * (-1 / (2 * kPi));
 }
 

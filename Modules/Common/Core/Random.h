@@ -1,4 +1,5 @@
-// Counter-based random numbers: a value depends on the seeds alone, never on the thread or on what was drawn before.
+// Counter-based random numbers: a value depends on the seeds alone, never on the thread or on what
+// was drawn before.
 #pragma once
 
 #include <cstdint>
@@ -50,6 +51,11 @@ inline Vec3f CosineHemisphere(float u, float v) {
 inline Vec2f UniformTriangle(float u, float v) {
   const float root = std::sqrt(u);
   return {root * (1 - v), root * v};
+}
+
+/// The place p0 + b1 (p1-p0) + b2 (p2-p0).
+inline Vec3f PlaceOnTriangle(const Vec3f& p0, const Vec3f& p1, const Vec3f& p2, const Vec2f& b) {
+  return p0 + (p1 - p0) * b.x + (p2 - p0) * b.y;
 }
 
 }  // namespace lambert

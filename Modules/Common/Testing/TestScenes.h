@@ -3,10 +3,22 @@
 #pragma once
 
 #include <array>
+#include <utility>
+#include <vector>
 
 #include "Scene/Core/Scene.h"
 
 namespace lambert::testing {
+
+/// A mesh of points and triangles, otherwise as it is by default.
+inline TriangleMesh MakeMesh(std::vector<Vec3f> positions,
+                             std::vector<std::array<int32_t, 3>> triangles) {
+  TriangleMesh mesh;
+  mesh.positions = std::move(positions);
+  mesh.triangles = std::move(triangles);
+  mesh.Complete();
+  return mesh;
+}
 
 /// Adds one point with a normal; returns its index.
 inline int32_t AddPoint(TriangleMesh* mesh, const Vec3f& position, const Vec3f& normal) {

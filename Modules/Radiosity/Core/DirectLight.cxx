@@ -233,9 +233,8 @@ bool DirectLight::FaceView::Place(const Vec2f& uv, Vec3f* target, float* value) 
     *target = Vec3f(Vec3d(at.position) + d * (height / slope));
     density = 1 / solidAngle;
   } else {
-    const Vec2f b = UniformTriangle(uv.x, uv.y);
-    *target = emitter.corners[0] + (emitter.corners[1] - emitter.corners[0]) * b.x +
-              (emitter.corners[2] - emitter.corners[0]) * b.y;
+    *target = PlaceOnTriangle(emitter.corners[0], emitter.corners[1], emitter.corners[2],
+                              UniformTriangle(uv.x, uv.y));
     const Vec3f offset = *target - at.position;
     const float squared = LengthSquared(offset);
     const float cosine = -Dot(offset, emitter.normal) / std::sqrt(std::max(squared, 1e-30f));

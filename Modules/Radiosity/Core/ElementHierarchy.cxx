@@ -60,9 +60,8 @@ Vec3f PlaceOnPolygon(const Vec3f* corners, int count, float u, float v) {
   float left = u * total;
   while (triangle + 1 < count && left >= areas[triangle]) left -= areas[triangle++];
   u = areas[triangle] > 0 ? std::min(1.f, left / areas[triangle]) : 0.5f;
-  const Vec2f b = UniformTriangle(u, v);
-  return corners[0] + (corners[triangle - 1] - corners[0]) * b.x +
-         (corners[triangle] - corners[0]) * b.y;
+  return PlaceOnTriangle(corners[0], corners[triangle - 1], corners[triangle],
+                         UniformTriangle(u, v));
 }
 
 /// Stratified places on a convex polygon: one low-discrepancy set, shifted by the element's seed.
@@ -281,8 +280,8 @@ ElementHierarchy::Place ElementHierarchy::PlaceInCluster(const ClusterNode& node
           areaBefore_.begin() - 1));
   const TriangleMesh& mesh = scene_.mesh;
   const Vec2f b = UniformTriangle(random->Uniform(), random->Uniform());
-  const Vec3f& p = mesh.Corner(face, 0);
-  const Vec3f place = p + (mesh.Corner(face, 1) - p) * b.x + (mesh.Corner(face, 2) - p) * b.y;
+  const Vec3f place =
+      PlaceOnTriangle(mesh.Corner(face, 0), mesh.Corner(face, 1), mesh.Corner(face, 2), b);
   return {{place, Oriented(mesh.FrontNormal(face), side)}, face};
 }
 

@@ -67,8 +67,8 @@ SideView LookAround(const Scene& scene, const ClusterNode& root, int32_t side,
     if (n == Vec3f()) continue;
     if (side == kBack) n = -n;
     const Vec2f b = UniformTriangle(random.Uniform(), random.Uniform());
-    const Vec3f& p = mesh.Corner(face, 0);
-    const Vec3f x = p + (mesh.Corner(face, 1) - p) * b.x + (mesh.Corner(face, 2) - p) * b.y;
+    const Vec3f x =
+        PlaceOnTriangle(mesh.Corner(face, 0), mesh.Corner(face, 1), mesh.Corner(face, 2), b);
     Vec3f u, v;
     CoordinateSystem(n, &u, &v);
     const Vec3f d = CosineHemisphere(random.Uniform(), random.Uniform());

@@ -1,4 +1,5 @@
-// What every method delivers: a refined mesh with light at its points, and the account of how it came about.
+// What every method delivers: a refined mesh with light at its points, and the account of how it
+// came about.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,9 @@ namespace lambert {
 /// One line of the convergence history; written at the end of every iteration.
 struct IterationRecord {
   int iteration = 0;
-  double seconds = 0;    ///< since the solver began
-  double threshold = 0;  ///< link error that was refined down to, as a fraction of the power in the scene
+  double seconds = 0;  ///< since the solver began
+  double threshold =
+      0;  ///< link error that was refined down to, as a fraction of the power in the scene
   int64_t elements = 0;
   int64_t links = 0;
   int64_t rays = 0;
@@ -42,14 +44,17 @@ struct SolverStatistics {
   }
 };
 
-/// The refined mesh. Every triangle lies within one face of the solved mesh; a lit back side is a reversed copy.
+/// The refined mesh. Every triangle lies within one face of the solved mesh; a lit back side is a
+/// reversed copy.
 struct RadiositySolution {
-  TriangleMesh mesh;                  ///< all per-face arrays filled; points have normals
-  std::vector<int64_t> inputFaceId;   ///< per face: triangle of the solved mesh that it lies in
-  std::vector<uint8_t> side;          ///< per face: Side of the solved mesh's winding
-  std::vector<int64_t> leafId;        ///< per face: leaf element of the hierarchy, for pictures; may be empty
-  std::vector<Spectrum> irradiance;   ///< per point, W/m2
-  std::vector<Spectrum> radiosity;    ///< per point, W/m2: reflectance x irradiance + emittance, of the face it serves
+  TriangleMesh mesh;                 ///< all per-face arrays filled; points have normals
+  std::vector<int64_t> inputFaceId;  ///< per face: triangle of the solved mesh that it lies in
+  std::vector<uint8_t> side;         ///< per face: Side of the solved mesh's winding
+  std::vector<int64_t>
+      leafId;  ///< per face: leaf element of the hierarchy, for pictures; may be empty
+  std::vector<Spectrum> irradiance;  ///< per point, W/m2
+  std::vector<Spectrum>
+      radiosity;  ///< per point, W/m2: reflectance x irradiance + emittance, of the face it serves
   /// Per point of the solved mesh (not of the refined one): irradiance of its brighter side, W/m2.
   std::vector<Spectrum> inputIrradiance;
 };

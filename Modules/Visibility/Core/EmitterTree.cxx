@@ -184,8 +184,7 @@ EmitterTree::Sample EmitterTree::Pick(const Vec3f& position, const Vec3f& normal
     sample.distance = float(height / Dot(Vec3d(e.normal), w));
   } else {
     const Vec2f b = UniformTriangle(float(u[1]), float(u[2]));
-    const Vec3f offset = e.corners[0] + (e.corners[1] - e.corners[0]) * b.x +
-                         (e.corners[2] - e.corners[0]) * b.y - position;
+    const Vec3f offset = PlaceOnTriangle(e.corners[0], e.corners[1], e.corners[2], b) - position;
     sample.distance = Length(offset);
     sample.direction = Normalize(offset);
   }

@@ -246,9 +246,8 @@ Spectrum ProbeReader::FromEmitters(const ProbePoint& probe, const std::vector<fl
       const int32_t face = emitters_[number].face;
       const Vec2f b = UniformTriangle(RadicalInverse(uint32_t(i), shift1),
                                       float(std::fmod(i * 0.6180339887498949 + shift2, 1.0)));
-      const Vec3f place = mesh.Corner(face, 0) +
-                          (mesh.Corner(face, 1) - mesh.Corner(face, 0)) * b.x +
-                          (mesh.Corner(face, 2) - mesh.Corner(face, 0)) * b.y;
+      const Vec3f place =
+          PlaceOnTriangle(mesh.Corner(face, 0), mesh.Corner(face, 1), mesh.Corner(face, 2), b);
       const float distance = Length(place - probe.position);
       if (!(distance > rays_.Epsilon())) continue;
       const Vec3f direction = (place - probe.position) / distance;

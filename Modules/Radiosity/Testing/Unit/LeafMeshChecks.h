@@ -11,6 +11,7 @@
 #include <set>
 #include <tuple>
 
+#include "Common/Testing/TestScenes.h"
 #include "Radiosity/Core/LeafMesh.h"
 
 namespace lambert::testing {
@@ -18,15 +19,6 @@ namespace lambert::testing {
 using Place = std::tuple<float, float, float>;
 
 inline Place PlaceOf(const Vec3f& p) { return {p.x + 0.f, p.y + 0.f, p.z + 0.f}; }
-
-inline TriangleMesh Mesh(std::vector<Vec3f> positions,
-                         std::vector<std::array<int32_t, 3>> triangles) {
-  TriangleMesh mesh;
-  mesh.positions = std::move(positions);
-  mesh.triangles = std::move(triangles);
-  mesh.Complete();
-  return mesh;
-}
 
 // A bumpy grid of n x n squares. A crease along its middle gives the two halves points of their
 // own.
@@ -55,7 +47,7 @@ inline TriangleMesh Grid(int n, bool withCrease, uint32_t seed) {
       triangles.push_back({c, d, a});
     }
   }
-  return Mesh(positions, triangles);
+  return MakeMesh(positions, triangles);
 }
 
 // Blades around one edge, every second with points of its own and wound the other way.
@@ -69,7 +61,7 @@ inline TriangleMesh Fan(int blades) {
     if (i % 2 == 0) triangles.push_back({0, 1, tip});
     if (i % 2 == 1) triangles.push_back({3, 2, tip});
   }
-  return Mesh(positions, triangles);
+  return MakeMesh(positions, triangles);
 }
 
 // Two fans of slivers, 1000 : 1, that meet along their long edges.
@@ -85,7 +77,7 @@ inline TriangleMesh Slivers(int count) {
     triangles.push_back({a, b, c});
     triangles.push_back({a, c, d});
   }
-  return Mesh(positions, triangles);
+  return MakeMesh(positions, triangles);
 }
 
 inline float LongestEdge(const std::vector<Vec3f>& corners) {

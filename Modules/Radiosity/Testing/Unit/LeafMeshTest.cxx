@@ -40,7 +40,7 @@ TEST(LeafMesh, UnsplitFacesComeOutAsTheyWentIn) {
 }
 
 TEST(LeafMesh, RightTriangleIsCutThroughItsApex) {
-  const TriangleMesh mesh = Mesh({{0, 0, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 1, 2}});
+  const TriangleMesh mesh = MakeMesh({{0, 0, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 1, 2}});
   LeafMesh leaves(mesh);
   const auto halves = leaves.Split(leaves.FacePatch(0, kFront));
   EXPECT_EQ(leaves.PatchCount(), 3);
@@ -102,7 +102,7 @@ TEST(LeafMesh, RefiningOnBetweenOutputsKeepsItSound) {
 
 TEST(LeafMesh, AStripIsCutOutAlongTwoLines) {
   // From a quarter of the longest side to a half of the left one, three hundredths wide.
-  const TriangleMesh mesh = Mesh({{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const TriangleMesh mesh = MakeMesh({{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   LeafMesh leaves(mesh);
   const int32_t whole = leaves.FacePatch(0, kFront);
   const LeafLine first = {LeafBorderPlace{1, 2, 0.25}, LeafBorderPlace{2, 0, 0.5}};
@@ -123,7 +123,7 @@ TEST(LeafMesh, AStripIsCutOutAlongTwoLines) {
 }
 
 TEST(LeafMesh, LinesThatOnlyTouchLeaveHalves) {
-  const TriangleMesh mesh = Mesh({{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const TriangleMesh mesh = MakeMesh({{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   LeafMesh leaves(mesh);
   const LeafLine side = {LeafBorderPlace{0, 1, 0}, LeafBorderPlace{0, 1, 1}};
   const int32_t whole = leaves.FacePatch(0, kFront);
@@ -166,8 +166,8 @@ TEST(LeafMesh, RandomStripsKeepItWatertight) {
 TEST(LeafMesh, VerticesAreSharedWhereInputPointsAre) {
   // Faces 0 and 1 share points; face 2 lies on the same edge with points of its own.
   const TriangleMesh mesh =
-      Mesh({{0, 0, 0}, {0, 2, 0}, {-1, 1, 0}, {1, 1, 0}, {0, 0, 0}, {0, 2, 0}, {0, 1, 1}},
-           {{0, 1, 2}, {1, 0, 3}, {4, 5, 6}});
+      MakeMesh({{0, 0, 0}, {0, 2, 0}, {-1, 1, 0}, {1, 1, 0}, {0, 0, 0}, {0, 2, 0}, {0, 1, 1}},
+               {{0, 1, 2}, {1, 0, 3}, {4, 5, 6}});
   LeafMesh leaves(mesh);
   leaves.Split(leaves.FacePatch(0, kFront));
   const Output output(mesh, &leaves);
@@ -206,7 +206,7 @@ TEST(LeafMesh, SplittingHalvesTheArea) {
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<Vec3f> corners(3);
     for (Vec3f& p : corners) p = {coordinate(random), coordinate(random), coordinate(random)};
-    const TriangleMesh mesh = Mesh(corners, {{0, 1, 2}});
+    const TriangleMesh mesh = MakeMesh(corners, {{0, 1, 2}});
     LeafMesh leaves(mesh);
     const auto halves = leaves.Split(leaves.FacePatch(0, kFront));
     const double first = PolygonArea(leaves.Corners(halves[0]));
@@ -222,7 +222,7 @@ TEST(LeafMesh, SliverEndsInWellShapedPatches) {
   // Right-angled, isosceles and obtuse, 1000 : 1.
   for (const float foot : {0.f, 0.0005f, 0.5f}) {
     const TriangleMesh mesh =
-        Mesh({{0, 0, 0}, {1, 0, 0}, {foot == 0.0005f ? 0 : foot, 0.001f, 0}}, {{0, 1, 2}});
+        MakeMesh({{0, 0, 0}, {1, 0, 0}, {foot == 0.0005f ? 0 : foot, 0.001f, 0}}, {{0, 1, 2}});
     LeafMesh leaves(mesh);
     std::vector<int32_t> open = {leaves.FacePatch(0, kFront)};
     double badArea = 0;
@@ -258,7 +258,7 @@ TEST(LeafMesh, DegenerateFacesAreSplitWithoutHarm) {
       {{0, 0, 0}, {1, 0, 0}, {0.3f, 1e-12f, 0}},
       {{100, 100, 100}, {100, 100.00001f, 100}, {-100, 100, 100}}};
   for (const auto& corners : degenerate) {
-    const TriangleMesh mesh = Mesh(corners, {{0, 1, 2}});
+    const TriangleMesh mesh = MakeMesh(corners, {{0, 1, 2}});
     LeafMesh leaves(mesh);
     std::vector<int32_t> open = {leaves.FacePatch(0, kFront)};
     for (size_t i = 0; i < 60; ++i) {

@@ -4,18 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "Common/Testing/TestScenes.h"
 #include "Scene/Core/SceneAssembly.h"
 
 namespace lambert::testing {
-
-inline TriangleMesh MakeMesh(std::vector<Vec3f> positions,
-                             std::vector<std::array<int32_t, 3>> triangles) {
-  TriangleMesh mesh;
-  mesh.positions = std::move(positions);
-  mesh.triangles = std::move(triangles);
-  mesh.Complete();
-  return mesh;
-}
 
 /// Unit square in z = 0, front up.
 inline TriangleMesh MakeSquare() {
