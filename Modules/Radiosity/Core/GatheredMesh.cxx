@@ -39,7 +39,8 @@ void GatheredMesh::GatherAtPoints(int64_t* rays, const ProgressCallback& progres
   std::vector<GatheredPoints::Point> places(points.size());
   ParallelForEach(int64_t(points.size()), 1024, [&](int64_t p) {
     const RefinedMesh::Point& point = points[size_t(p)];
-    places[size_t(p)] = {point.key, this->PlaceOf(int32_t(p), point.inside, point.insideNormal)};
+    places[size_t(p)] = {point.key, this->PlaceOf(int32_t(p), point.inside, point.insideNormal),
+                         false};
   });
   for (size_t t = 0; t < mesh_.Triangles().size(); ++t) {
     const float share = this->Receives(int64_t(t)) ? float(this->Area(int64_t(t))) / 3 : 0;
@@ -180,7 +181,7 @@ void GatheredMesh::Probe(const std::vector<int64_t>& triangles, int64_t* rays) {
     place.normal = Normalize(place.normal);
     place.geometricNormal = leaf.side == kFront ? front : -front;
     place.area = float(this->Area(t));
-    places.push_back({HashBits(this->Key(t), kMiddle), place});
+    places.push_back({HashBits(this->Key(t), kMiddle), place, true});
   }
   const std::vector<GatheredPoints::Light> gathered = gathered_.At(places, rays);
   for (size_t i = 0; i < triangles.size(); ++i) {

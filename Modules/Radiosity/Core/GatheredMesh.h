@@ -41,6 +41,8 @@ class GatheredMesh {
   /// Cuts the triangles that hold the most of the error, along the edges of shadows where they find
   /// one, until interpolation leaves about `wanted`; false where it does, or nothing can be cut.
   bool CutTriangles(double wanted, int64_t* rays);
+  /// There are as many triangles as there may be.
+  bool IsFull() const;
   RadiositySolution Deliver() const { return mesh_.Deliver(irradiance_); }
 
  private:

@@ -31,6 +31,11 @@ constexpr int kMostSteps = 8;
 
 }  // namespace
 
+bool GatheredMesh::IsFull() const {
+  return int64_t(mesh_.Triangles().size()) >
+         std::max(kMostTriangles, int64_t(kMostGrowth * double(firstTriangles_)));
+}
+
 // Those that hold the most of the error, until what is left is what may be left.
 std::vector<GatheredMesh::ChosenPatch> GatheredMesh::ChoosePatches(double wanted,
                                                                    double* threshold) {
@@ -38,7 +43,6 @@ std::vector<GatheredMesh::ChosenPatch> GatheredMesh::ChoosePatches(double wanted
   const LightScale scale = this->MeasureLight();
   if (!(scale.mean > 0)) return {};
   const int64_t count = int64_t(mesh_.Triangles().size());
-  if (count > std::max(kMostTriangles, int64_t(kMostGrowth * double(firstTriangles_)))) return {};
   std::vector<double> errors(size_t(count), 0);
   double total = 0;
   for (int64_t t = 0; t < count; ++t) {

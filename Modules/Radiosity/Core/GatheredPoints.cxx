@@ -15,8 +15,9 @@ namespace {
 constexpr float kReach = 0.5f;
 /// Rays to emitters that every point casts at first.
 constexpr int kFirstDirectRays = 4;
-/// Points that stand for more area than the mean get up to this many times the rays to emitters.
-constexpr double kMostByArea = 16;
+/// Points that stand for more area than the mean get up to this many times the rays to emitters,
+/// and no point more than the other number of times as many as are wanted of all.
+constexpr double kMostByArea = 16, kMostByBoth = 32;
 /// What a point is thought to see of the emitters where no neighbour tells.
 constexpr double kUnknownClear = 0.25;
 /// Half shadow that scatters so much as a relative variance a ray gets the wanted number of rays;
@@ -52,7 +53,10 @@ std::vector<GatheredPoints::Light> GatheredPoints::At(const std::vector<Point>& 
   for (size_t p = 0; p < points.size(); ++p) {
     const auto [place, isNew] = recordOfKey_.try_emplace(points[p].key, int32_t(records_.size()));
     recordOfPoint[p] = place->second;
-    if (isNew) records_.push_back({points[p].at, {}, 0, {}, {}});
+    if (isNew) {
+      records_.push_back({points[p].at, points[p].isProbe, {}, 0, {}, {}});
+      deliveredCount_ += points[p].isProbe ? 0 : 1;
+    }
     records_[size_t(place->second)].at.area = points[p].at.area;
   }
 
@@ -167,14 +171,15 @@ void GatheredPoints::LookIntoPenumbrae(int32_t first, const SampleNeighbours& ne
     const Record& record = records_[size_t(index)];
     const bool isPartial = this->IsInPenumbra(index, neighbours);
     const double scatter = this->ScatterOfShadow(index, neighbours, mean) / kUsualScatter;
-    int wanted = 0;
-    if (isPartial) {
-      wanted =
-          int(options_.penumbraRays * std::min(kMostByScatter, std::max(kLeastByScatter, scatter)));
-    }
-    if (isPartial || record.direct.isScattered) wanted += options_.directRays;
     const double part = area > 0 ? double(record.at.area) / area : 1;
-    more[size_t(i)] = int(wanted * std::min(kMostByArea, std::max(1.0, part)));
+    const double byArea = std::min(kMostByArea, std::max(1.0, part));
+    double wanted = 0;
+    if (isPartial) {
+      const double byScatter = std::min(kMostByScatter, std::max(kLeastByScatter, scatter));
+      wanted = options_.penumbraRays * std::min(kMostByBoth, byScatter * byArea);
+    }
+    if (isPartial || record.direct.isScattered) wanted += options_.directRays * byArea;
+    more[size_t(i)] = int(wanted);
   });
   this->CastMoreToEmitters(more, first, rays);
 }
@@ -186,6 +191,7 @@ void GatheredPoints::Improve(double noise, int64_t* rays, const ProgressCallback
   std::vector<int> more(records_.size(), 0);
   ParallelForEach(int64_t(more.size()), 256, [&](int64_t i) {
     const Record& record = records_[size_t(i)];
+    if (record.isProbe) return;
     const bool isUnsure = record.direct.isScattered || this->IsInPenumbra(int32_t(i), neighbours);
     if (isUnsure) more[size_t(i)] = std::min(record.directRays, kMostDirectRays);
   });
@@ -213,14 +219,16 @@ void GatheredPoints::Share(int32_t first, const SampleNeighbours& neighbours) {
 }
 
 // What each new point adds to the squared relative error: by its area, and as one of all points.
+// Probes add nothing.
 std::vector<double> GatheredPoints::Noise(int32_t first) const {
   const auto lightOf = [](const Record& r) {
     return std::sqrt(SquaredNorm(r.direct.irradiance + r.bounced.irradiance));
   };
   double area = 0, mean = 0, meanSquare = 0;
-  for (const Record& r : records_) area += double(r.at.area);
-  const double each = 1 / double(records_.size());
+  for (const Record& r : records_) area += r.isProbe ? 0 : double(r.at.area);
+  const double each = 1 / double(std::max<int64_t>(1, deliveredCount_));
   const auto share = [&](const Record& r) {
+    if (r.isProbe) return 0.;
     return area > 0 ? kByArea * double(r.at.area) / area + (1 - kByArea) * each : each;
   };
   for (const Record& r : records_) mean += share(r) * lightOf(r);
@@ -250,7 +258,7 @@ void GatheredPoints::GatherWhereItScatters(int32_t first, const SampleNeighbours
 
     // By which factor the rays of a point with one unit of noise grow; one that has no more than
     // its share of what may be left has enough, however much there is elsewhere.
-    double low = std::sqrt(allowed / double(records_.size())), high = low;
+    double low = std::sqrt(allowed / double(std::max<int64_t>(1, deliveredCount_))), high = low;
     for (const double n : noise) high = std::max(high, std::sqrt(n));
     const auto growth = [&](double n, double unit) {
       return std::min(double(kMostGrowth), std::max(1.0, std::sqrt(n) / unit));

@@ -26,6 +26,7 @@ class GatheredPoints {
   struct Point {
     uint64_t key = 0;  ///< by which it is known when it is asked again
     GatherPoint at;
+    bool isProbe = false;  ///< only tells how good others are: few rays are enough, now and later
   };
   struct Light {
     Spectrum irradiance;  ///< W/m2
@@ -42,14 +43,16 @@ class GatheredPoints {
   /// Cancelled.
   std::vector<Light> At(const std::vector<Point>& points, int64_t* rays,
                         const ProgressCallback& progress = {});
-  /// More rays for the points asked so far: those whose neighbours are partly in shadow get as many
-  /// to emitters as they had, and the scatter of the others falls to `noise`, a relative RMS error,
-  /// (0, 1]; that goes for points asked later too. Adds the rays cast to `rays`. Throws Cancelled.
+  /// More rays for the points asked so far, without probes: those whose neighbours are partly in
+  /// shadow get as many to emitters as they had, and the scatter of the others falls to `noise`, a
+  /// relative RMS error, (0, 1]; that goes for points asked later too. Adds the rays cast to
+  /// `rays`. Throws Cancelled.
   void Improve(double noise, int64_t* rays, const ProgressCallback& progress = {});
 
  private:
   struct Record {
     GatherPoint at;
+    bool isProbe = false;
     DirectSample direct;
     int directRays = 0;
     BounceSum bounces;
@@ -73,6 +76,7 @@ class GatheredPoints {
   std::vector<Record> records_;  ///< in the order in which they were asked for
   std::vector<IrradianceSample> samples_;
   std::unordered_map<uint64_t, int32_t> recordOfKey_;
+  int64_t deliveredCount_ = 0;  ///< records that are no probes
 };
 
 /// By how much a squared error (W/m2)^2 at a place with irradiance `light` (W/m2, norm over bands)

@@ -62,12 +62,15 @@ void GatheredSolution::Gather(double noise, const ProgressCallback& progress) {
 
 bool GatheredSolution::Cut(double error, const ProgressCallback& progress) {
   Implementation& self = *implementation_;
+  if (self.mesh->IsFull()) return false;
   self.mesh->LearnNonlinearity();
   self.mesh->ProbeMiddles(error, self.rays);
   if (!self.mesh->CutTriangles(error, self.rays)) return false;
   self.mesh->GatherAtPoints(self.rays, progress);
   return true;
 }
+
+bool GatheredSolution::IsFull() const { return implementation_->mesh->IsFull(); }
 
 RadiositySolution GatheredSolution::Deliver() const { return implementation_->mesh->Deliver(); }
 

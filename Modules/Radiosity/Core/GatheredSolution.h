@@ -39,6 +39,8 @@ class GatheredSolution {
   /// 1], and gathers at their points; false where it leaves no more, or nothing can be cut. Throws
   /// Cancelled.
   bool Cut(double error, const ProgressCallback& progress = {});
+  /// No more triangles can be cut.
+  bool IsFull() const;
   RadiositySolution Deliver() const;
 
  private:

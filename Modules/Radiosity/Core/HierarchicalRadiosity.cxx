@@ -337,7 +337,7 @@ double HierarchicalRadiosity::Implementation::PredictGatherSeconds() const {
     const int64_t face = mesh.FaceCount() * i / kTrialPoints;
     const Vec3f normal = mesh.FrontNormal(face);
     const Vec3f center = (mesh.Corner(face, 0) + mesh.Corner(face, 1) + mesh.Corner(face, 2)) / 3.f;
-    points.push_back({uint64_t(i), {center, normal, normal}});
+    points.push_back({uint64_t(i), {center, normal, normal}, false});
   }
   const Timer timer;
   ElementLight trial = light;
@@ -450,6 +450,9 @@ void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
       return;
     }
     if (self.EndsVerified(&verification)) return;
+    // More rays take away no more than their scatter.
+    const double scatter = NoiseFor(aim), error = verification.Error();
+    if (solution->IsFull() && std::hypot(self.options.error, scatter) < error) break;
     aim *= std::min(0.8, std::max(0.35, kAimBelow * self.options.error / verification.Error()));
   }
   statistics.stoppedBy = "floor";

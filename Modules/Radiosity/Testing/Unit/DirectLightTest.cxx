@@ -75,7 +75,7 @@ TEST(GatheredPoints, LittleLightIsNotLost) {
   for (int i = 0; i < kAcross * kAcross; ++i) {
     const float x = 0.2f + 0.6f * float(i % kAcross) / kAcross;
     const float y = -0.3f + 0.6f * float(i / kAcross) / kAcross;
-    points.push_back({uint64_t(i), OnFloor(x, y)});
+    points.push_back({uint64_t(i), OnFloor(x, y), false});
   }
   GatheredPoints gathered(gather, {});
   double mean = 0, expected = 0;
