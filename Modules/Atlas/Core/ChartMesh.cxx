@@ -1,0 +1,175 @@
+#include "Atlas/Core/ChartMesh.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "Common/Core/Error.h"
+
+namespace lambert {
+
+namespace {
+
+int32_t NextCorner(int32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+
+/// The first point with the same position, by point.
+std::vector<int32_t> JoinPoints(const std::vector<Vec3f>& positions) {
+  std::vector<int32_t> order(positions.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](int32_t point) {
+    const Vec3f& p = positions[size_t(point)];
+    return std::make_tuple(p.x, p.y, p.z, point);
+  };
+  std::sort(order.begin(), order.end(), [&](int32_t a, int32_t b) { return key(a) < key(b); });
+  std::vector<int32_t> joined(positions.size());
+  for (size_t i = 0; i < order.size(); ++i) {
+    const bool isSame = i > 0 && positions[size_t(order[i])] == positions[size_t(order[i - 1])];
+    joined[size_t(order[i])] = isSame ? joined[size_t(order[i - 1])] : order[i];
+  }
+  return joined;
+}
+
+/// Sets that are joined one by one; a set is known by its smallest member.
+class DisjointSets {
+ public:
+  explicit DisjointSets(size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  int32_t Find(int32_t i) {
+    while (parent_[size_t(i)] != i) {
+      parent_[size_t(i)] = parent_[size_t(parent_[size_t(i)])];
+      i = parent_[size_t(i)];
+    }
+    return i;
+  }
+  void Join(int32_t a, int32_t b) {
+    a = this->Find(a), b = this->Find(b);
+    parent_[size_t(std::max(a, b))] = std::min(a, b);
+  }
+
+ private:
+  std::vector<int32_t> parent_;
+};
+
+}  // namespace
+
+std::vector<int32_t> FindNeighbours(const TriangleMesh& mesh) {
+  if (mesh.surfaceId.size() != mesh.triangles.size()) {
+    throw Error("The mesh lacks surface numbers; make them with ClusterFaces.");
+  }
+  // Edges side by side that have the same ends.
+  struct Edge {
+    int32_t surface, low, high, corner;
+    bool isForward;
+    bool IsAlong(const Edge& other) const {
+      return surface == other.surface && low == other.low && high == other.high;
+    }
+  };
+  const std::vector<int32_t> joined = JoinPoints(mesh.positions);
+  std::vector<Edge> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (size_t face = 0; face < mesh.triangles.size(); ++face) {
+    for (size_t c = 0; c < 3; ++c) {
+      const int32_t from = joined[size_t(mesh.triangles[face][c])];
+      const int32_t to = joined[size_t(mesh.triangles[face][(c + 1) % 3])];
+      if (from == to) continue;
+      edges.push_back({mesh.surfaceId[face], std::min(from, to), std::max(from, to),
+                       int32_t(3 * face + c), from < to});
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    return std::tie(a.surface, a.low, a.high, a.corner) <
+           std::tie(b.surface, b.low, b.high, b.corner);
+  });
+
+  // Two that run against each other join their faces.
+  std::vector<int32_t> neighbours(3 * mesh.triangles.size(), -1);
+  for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    while (end < edges.size() && edges[end].IsAlong(edges[begin])) ++end;
+    if (end - begin != 2 || edges[begin].isForward == edges[begin + 1].isForward) continue;
+    neighbours[size_t(edges[begin].corner)] = edges[begin + 1].corner;
+    neighbours[size_t(edges[begin + 1].corner)] = edges[begin].corner;
+  }
+  return neighbours;
+}
+
+ChartMesh MakeChartMesh(const TriangleMesh& mesh, const std::vector<int32_t>& neighbours,
+                        int32_t firstFace, int32_t faceCount) {
+  // Corners at both ends of an inner edge are one vertex.
+  ChartMesh chart;
+  const int32_t first = 3 * firstFace, corners = 3 * faceCount;
+  const auto neighbour = [&](int32_t corner) {
+    const int32_t other = neighbours[size_t(first + corner)];
+    return other >= first && other < first + corners ? other - first : -1;
+  };
+  DisjointSets vertices{size_t(corners)}, pieces{size_t(faceCount)};
+  int64_t innerEdges = 0, pieceCount = faceCount;
+  for (int32_t corner = 0; corner < corners; ++corner) {
+    const int32_t other = neighbour(corner);
+    if (other < corner) continue;
+    ++innerEdges;
+    vertices.Join(corner, NextCorner(other));
+    vertices.Join(NextCorner(corner), other);
+    if (pieces.Find(corner / 3) == pieces.Find(other / 3)) continue;
+    pieces.Join(corner / 3, other / 3);
+    --pieceCount;
+  }
+  std::vector<int32_t> vertexOfCorner(size_t(corners), -1);
+  chart.triangles.resize(size_t(faceCount));
+  for (int32_t corner = 0; corner < corners; ++corner) {
+    const int32_t root = vertices.Find(corner);
+    if (root == corner) {
+      vertexOfCorner[size_t(corner)] = int32_t(chart.positions.size());
+      chart.positions.push_back(Vec3d(mesh.Corner(firstFace + corner / 3, corner % 3)));
+    }
+    vertexOfCorner[size_t(corner)] = vertexOfCorner[size_t(root)];
+    chart.triangles[size_t(corner / 3)][size_t(corner % 3)] = vertexOfCorner[size_t(corner)];
+  }
+
+  // Border lines: no vertex has two edges of the border that begin there.
+  std::vector<int32_t> next(chart.positions.size(), -1);
+  for (int32_t corner = 0; corner < corners; ++corner) {
+    if (neighbour(corner) >= 0) continue;
+    next[size_t(vertexOfCorner[size_t(corner)])] = vertexOfCorner[size_t(NextCorner(corner))];
+  }
+  for (size_t vertex = 0; vertex < next.size(); ++vertex) {
+    if (next[vertex] < 0) continue;
+    std::vector<int32_t> line;
+    for (int32_t v = int32_t(vertex); next[size_t(v)] >= 0;) {
+      line.push_back(v);
+      std::swap(v, next[size_t(v)]);
+      next[size_t(line.back())] = -1;
+    }
+    chart.borders.push_back(std::move(line));
+  }
+
+  // Vertices - edges + faces = 2 - 2 genus - borders.
+  const int64_t edges = corners - innerEdges;
+  const int64_t euler = int64_t(chart.positions.size()) - edges + faceCount;
+  chart.isConnected = pieceCount == 1;
+  chart.genus = (2 - euler - int64_t(chart.borders.size())) / 2;
+  return chart;
+}
+
+FlatTriangle Flatten(const ChartMesh& chart, size_t triangle) {
+  Vec3d p[3];
+  for (size_t c = 0; c < 3; ++c) {
+    p[c] = chart.positions[size_t(chart.triangles[triangle][c])];
+  }
+  FlatTriangle flat;
+  for (int c = 0; c < 3; ++c) {
+    const double length = Length(p[(c + 1) % 3] - p[c]);
+    if (length > flat.length) {
+      flat.length = length;
+      flat.first = c;
+    }
+  }
+  if (!(flat.length > 0)) return flat;
+  const Vec3d &a = p[flat.first], along = (p[(flat.first + 1) % 3] - a) / flat.length;
+  const Vec3d apex = p[(flat.first + 2) % 3] - a;
+  flat.x = Dot(apex, along);
+  flat.height = Length(Cross(along, apex));
+  return flat;
+}
+
+}  // namespace lambert

@@ -1,0 +1,47 @@
+// Which clusters become charts: down the tree of every surface until they can be laid flat (thesis
+// 5.2.1, 5.2.3).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "Clustering/Core/FaceClustering.h"
+#include "Common/Core/Progress.h"
+#include "Common/Core/TriangleMesh.h"
+
+namespace lambert {
+
+struct ChartOptions {
+  double stretch =
+      2;  ///< by which lengths in a chart grow or shrink at most, as a factor, [1, inf)
+  double longest = 0;  ///< m that a chart extends at most, unless an edge does; 0: any
+  /// m2 that a chart leaves empty of its smallest rectangle at most; 0: any. Frames that large
+  /// charts would not fit into are cut.
+  double mostEmpty = 0;
+};
+
+/// A cluster laid flat.
+struct Chart {
+  int32_t node = 0;  ///< of the cluster tree
+  int32_t firstFace = 0, faceCount = 0;
+  int32_t cornerCount = 0;   ///< different places in it
+  bool isProjected = false;  ///< seen along its normal, else a conformal map
+};
+
+struct ChartSet {
+  std::vector<Chart> charts;  ///< by their first face; every face lies in one
+  /// By face: of its corners in the plane of their chart, m. Charts have the area of their cluster
+  /// about, and lie each about its own origin.
+  std::vector<std::array<Vec2f, 3>> places;
+  /// By face: of its corners within their chart, [0, cornerCount); one number, one place.
+  std::vector<std::array<int32_t, 3>> corners;
+};
+
+/// The largest clusters that a map lays flat without overlaps and within the stretch. `mesh` is in
+/// the order of `tree`. A face alone always is a chart. Does not depend on the number of threads.
+/// Throws Error for options out of range, Cancelled.
+ChartSet CutIntoCharts(const TriangleMesh& mesh, const ClusterTree& tree,
+                       const ChartOptions& options = {}, const ProgressCallback& progress = {});
+
+}  // namespace lambert

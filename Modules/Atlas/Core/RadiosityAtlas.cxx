@@ -1,0 +1,258 @@
+#include "Atlas/Core/RadiosityAtlas.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "Atlas/Core/ChartPacking.h"
+#include "Clustering/Core/ClusterFrame.h"
+#include "Common/Core/Error.h"
+#include "Common/Core/Parallel.h"
+#include "Common/Core/Timer.h"
+
+namespace lambert {
+
+namespace {
+
+/// The part of the pages that charts are first thought to fill; what is left of them at the end.
+constexpr double kFirstFill = 0.7, kLeastFill = 0.97;
+/// A chart may leave so much empty of its rectangle, of the area of all.
+constexpr double kMostEmpty = 0.01;
+/// Attempts at the size of the texels that fills the pages, the first of them to find any.
+constexpr int kAttempts = 10;
+/// What the next attempt shrinks by beyond what the last one tells.
+constexpr double kSafety = 0.99;
+/// Lookups between texels take in what lies half a texel around a place.
+constexpr double kHalfTexel = 0.5;
+
+/// Texels that a chart may be long.
+double Room(const AtlasOptions& options) { return options.pageSize - 2 * options.padding - 2; }
+
+/// Texels a metre: those asked for, or as many as charts of `area`, m2, may fill the pages with.
+double FirstDensity(const AtlasOptions& options, double area) {
+  if (options.texelSize > 0) return 1 / options.texelSize;
+  const double texels = kFirstFill * options.pages * double(options.pageSize) * options.pageSize;
+  return area > 0 ? std::sqrt(texels / area) : 1;
+}
+
+/// A chart turned into its smallest rectangle.
+struct Rectangle {
+  Vec2d axis, low;  ///< its longer side; the corner that its texels begin at, along the sides
+  double width = 0, height = 0;  ///< m
+
+  Vec2d Inside(const Vec2f& place) const {
+    const Vec2d p(place);
+    return {p.x * axis.x + p.y * axis.y - low.x, p.y * axis.x - p.x * axis.y - low.y};
+  }
+};
+
+Rectangle RectangleOf(const ChartSet& set, const Chart& chart) {
+  std::vector<Vec2f> points;
+  for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+    for (const Vec2f& place : set.places[size_t(f)]) points.push_back(place);
+  }
+  Rectangle rectangle;
+  rectangle.axis = Vec2d(MinimumAreaRectangle(points).axis);
+  Vec2d low = rectangle.Inside(points.front()), high = low;
+  for (const Vec2f& point : points) {
+    const Vec2d p = rectangle.Inside(point);
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  rectangle.low = low;
+  rectangle.width = high.x - low.x;
+  rectangle.height = high.y - low.y;
+  return rectangle;
+}
+
+/// Charts at a number of texels a metre.
+class Layout {
+ public:
+  Layout(const ChartSet& set, const AtlasOptions& options) : set_(set), options_(options) {
+    rectangles_.resize(set.charts.size());
+    ParallelForEach(int64_t(set.charts.size()), 16, [&](int64_t i) {
+      rectangles_[size_t(i)] = RectangleOf(set, set.charts[size_t(i)]);
+    });
+    for (const Rectangle& r : rectangles_) longest_ = std::max(longest_, r.width);
+    for (const auto& p : set.places) {
+      const Vec2d u(p[1] - p[0]), v(p[2] - p[0]);
+      area_ += 0.5 * std::abs(u.x * v.y - u.y * v.x);
+    }
+  }
+
+  /// Texels a metre at which the longest chart still fits on a page.
+  double MostDensity() const { return longest_ > 0 ? Room(options_) / longest_ : 1; }
+  double Area() const { return area_; }
+
+  Packing Pack(double density) const {
+    std::vector<ChartMask> masks(set_.charts.size());
+    ParallelForEach(int64_t(masks.size()), 16,
+                    [&](int64_t i) { masks[size_t(i)] = this->Mask(size_t(i), density); });
+    return PackCharts(masks, options_.pageSize);
+  }
+
+  /// Texels from the lower left corner of what the chart takes.
+  Vec2d TexelsOf(size_t chart, const Vec2f& place, double density) const {
+    const double margin = options_.padding + kHalfTexel;
+    return rectangles_[chart].Inside(place) * density + Vec2d(margin, margin);
+  }
+  /// The texels that it takes in all.
+  std::array<int, 2> Size(size_t chart, double density) const {
+    const double margin = 2 * (options_.padding + kHalfTexel);
+    return {int(std::ceil(rectangles_[chart].width * density + margin)),
+            int(std::ceil(rectangles_[chart].height * density + margin))};
+  }
+
+ private:
+  // Each triangle takes the texels that it touches, and those of the padding around them.
+  ChartMask Mask(size_t index, double density) const {
+    const Chart& chart = set_.charts[index];
+    const auto [width, height] = this->Size(index, density);
+    ChartMask mask(width, height);
+    const double margin = options_.padding + kHalfTexel;
+    for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+      Vec2d p[3];
+      for (size_t c = 0; c < 3; ++c) {
+        p[c] = this->TexelsOf(index, set_.places[size_t(f)][c], density);
+      }
+      const double left = std::min({p[0].x, p[1].x, p[2].x}) - margin;
+      const double right = std::max({p[0].x, p[1].x, p[2].x}) + margin;
+      for (int x = std::max(0, int(left)); x <= std::min(width - 1, int(right)); ++x) {
+        double low = height, high = 0;
+        for (int c = 0; c < 3; ++c) {
+          IncludeEdge(p[c], p[(c + 1) % 3], x - margin, x + 1 + margin, &low, &high);
+        }
+        if (low > high) continue;
+        mask.Take(x, std::max(0, int(std::floor(low - margin))),
+                  std::min(height, int(std::ceil(high + margin))));
+      }
+    }
+    return mask;
+  }
+
+  /// What an edge takes between two upright lines.
+  static void IncludeEdge(Vec2d a, Vec2d b, double left, double right, double* low, double* high) {
+    if (a.x > b.x) std::swap(a, b);
+    if (b.x < left || a.x > right) return;
+    const auto at = [&](double x) {
+      if (!(b.x > a.x)) return a.y;
+      return a.y + (b.y - a.y) * std::min(1., std::max(0., (x - a.x) / (b.x - a.x)));
+    };
+    const double y[2] = {at(left), b.x > a.x ? at(right) : b.y};
+    *low = std::min({*low, y[0], y[1]});
+    *high = std::max({*high, y[0], y[1]});
+  }
+
+  const ChartSet& set_;
+  const AtlasOptions& options_;
+  std::vector<Rectangle> rectangles_;
+  double longest_ = 0, area_ = 0;
+};
+
+void RequireAtlasOptions(const AtlasOptions& options) {
+  if (options.pageSize < 16 || options.pageSize > 16384) {
+    throw Error("A page of an atlas has 16 to 16384 texels along a side.");
+  }
+  if (options.pages < 1) throw Error("An atlas has at least one page.");
+  if (!(options.texelSize >= 0 && std::isfinite(options.texelSize))) {
+    throw Error("The size of a texel is 0 m or more.");
+  }
+  if (options.padding < 0 || options.padding > 64 || 4 * options.padding > options.pageSize) {
+    throw Error("The padding of a chart is 0 to 64 texels, and a quarter of a page at most.");
+  }
+}
+
+/// The smallest texels whose charts do not need more pages than there may be.
+double FillPages(const Layout& layout, const AtlasOptions& options, Packing* packing,
+                 const ProgressCallback& progress) {
+  double density = std::min(layout.MostDensity(), FirstDensity(options, layout.Area())), best = 0;
+  double tooDense = std::numeric_limits<double>::max();
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    if (!Report(progress, 0.6 + 0.4 * attempt / kAttempts, "packing charts")) throw Cancelled();
+    const Packing packed = layout.Pack(density);
+    const double fill = packed.pages - 1 + double(packed.lastHeight) / double(options.pageSize);
+    if (packed.pages <= options.pages) {
+      if (density > best) {
+        best = density;
+        *packing = packed;
+      }
+      if (fill >= kLeastFill * options.pages || best >= layout.MostDensity()) break;
+    } else {
+      tooDense = std::min(tooDense, density);
+    }
+    density = std::min(layout.MostDensity(), kSafety * density * std::sqrt(options.pages / fill));
+    if (density <= best || density >= tooDense) {
+      if (best > 0 && best > kLeastFill * tooDense) break;
+      density = tooDense < std::numeric_limits<double>::max() ? 0.5 * (best + tooDense) : density;
+      if (density <= best) break;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+RadiosityAtlas MakeRadiosityAtlas(const TriangleMesh& mesh, const ClusterTree& tree,
+                                  const AtlasOptions& options, const ProgressCallback& progress) {
+  RequireAtlasOptions(options);
+
+  // Charts; none longer than a page, where the texels are as small as they will be about.
+  RadiosityAtlas atlas;
+  Timer timer;
+  ChartOptions chartOptions;
+  chartOptions.stretch = options.stretch;
+  double area = 0;
+  for (const int32_t root : tree.surfaceRoots) area += double(tree.nodes[size_t(root)].area);
+  chartOptions.longest = Room(options) / FirstDensity(options, area);
+  chartOptions.mostEmpty = kMostEmpty * area;
+  atlas.set = CutIntoCharts(mesh, tree, chartOptions, [&](double fraction, const char* stage) {
+    return Report(progress, 0.6 * fraction, stage);
+  });
+  atlas.chartSeconds = timer.Seconds();
+
+  // Their places on the pages.
+  timer.Restart();
+  const Layout layout(atlas.set, options);
+  Packing packing;
+  double density = 0;
+  if (options.texelSize > 0) {
+    density = 1 / options.texelSize;
+    packing = layout.Pack(density);
+  } else if (!atlas.set.charts.empty()) {
+    density = FillPages(layout, options, &packing, progress);
+    if (!(density > 0)) {
+      throw Error("The " + std::to_string(atlas.set.charts.size()) + " charts do not fit on " +
+                  std::to_string(options.pages) + " page(s) of " +
+                  std::to_string(options.pageSize) + " texels; give more or larger pages.");
+    }
+  }
+  atlas.pages = packing.pages;
+  atlas.pageSize = options.pageSize;
+  atlas.texelSize = density > 0 ? 1 / density : 0;
+  atlas.pageOfChart.resize(atlas.set.charts.size());
+  atlas.textureCoords.resize(size_t(mesh.FaceCount()));
+  ParallelForEach(int64_t(atlas.set.charts.size()), 16, [&](int64_t i) {
+    const Chart& chart = atlas.set.charts[size_t(i)];
+    const ChartPlace& place = packing.places[size_t(i)];
+    atlas.pageOfChart[size_t(i)] = place.page;
+    for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+      for (size_t c = 0; c < 3; ++c) {
+        Vec2d p = layout.TexelsOf(size_t(i), atlas.set.places[size_t(f)][c], density);
+        std::array<int, 2> size = layout.Size(size_t(i), density);
+        for (int turn = 0; turn < place.turns; ++turn) {
+          p = {size[1] - p.y, p.x};
+          std::swap(size[0], size[1]);
+        }
+        atlas.textureCoords[size_t(f)][c] =
+            Vec2f((p + Vec2d(place.x, place.y)) * (1 / double(options.pageSize)));
+      }
+    }
+  });
+  if (atlas.pages > 0) {
+    atlas.utilisation = layout.Area() * density * density /
+                        (double(atlas.pages) * options.pageSize * options.pageSize);
+  }
+  atlas.packSeconds = timer.Seconds();
+  return atlas;
+}
+
+}  // namespace lambert

@@ -1,0 +1,38 @@
+// An atlas of a whole mesh: charts, and where their corners lie on its pages (thesis 5.2).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "Atlas/Core/ChartSegmentation.h"
+#include "Common/Core/Progress.h"
+
+namespace lambert {
+
+struct AtlasOptions {
+  double stretch = 2;    ///< of a chart, as a factor, [1, inf)
+  int pageSize = 1024;   ///< texels along a side, [16, 16384]
+  int pages = 1;         ///< the budget, [1, inf); counts where `texelSize` is 0
+  double texelSize = 0;  ///< m, [0, inf), on as many pages as it takes; 0: what fills the pages
+  int padding = 2;       ///< texels between a chart and the edge of what it takes, [0, 64]
+};
+
+struct RadiosityAtlas {
+  ChartSet set;
+  std::vector<int32_t> pageOfChart;                 ///< [0, pages)
+  std::vector<std::array<Vec2f, 3>> textureCoords;  ///< by face: of its corners, [0, 1], v upward
+  int pages = 0, pageSize = 0;
+  double texelSize = 0;    ///< m
+  double utilisation = 0;  ///< area of the charts over that of the pages
+  double chartSeconds = 0, packSeconds = 0;
+};
+
+/// Charts of every surface on pages. `mesh` is in the order of `tree`. Does not depend on the
+/// number of threads. Throws Error for options out of range and for charts that do not fit,
+/// Cancelled.
+RadiosityAtlas MakeRadiosityAtlas(const TriangleMesh& mesh, const ClusterTree& tree,
+                                  const AtlasOptions& options = {},
+                                  const ProgressCallback& progress = {});
+
+}  // namespace lambert

@@ -1,0 +1,118 @@
+#include "Atlas/Core/ChartPacking.h"
+
+#include <gtest/gtest.h>
+
+#include "Common/Core/Error.h"
+#include "Common/Core/Random.h"
+
+namespace lambert {
+namespace {
+
+ChartMask Filled(int width, int height) {
+  ChartMask mask(width, height);
+  for (int x = 0; x < width; ++x) mask.Take(x, 0, height);
+  return mask;
+}
+
+ChartMask Frame(int width, int height, int border) {
+  ChartMask mask(width, height);
+  for (int x = 0; x < width; ++x) {
+    if (x < border || x >= width - border) mask.Take(x, 0, height);
+    mask.Take(x, 0, border);
+    mask.Take(x, height - border, height);
+  }
+  return mask;
+}
+
+/// Texels that are taken, none of them twice, all on their page.
+int64_t Taken(const std::vector<ChartMask>& charts, const Packing& packing, int size) {
+  std::vector<int> count(size_t(packing.pages) * size_t(size) * size_t(size), 0);
+  int64_t total = 0;
+  for (size_t i = 0; i < charts.size(); ++i) {
+    const ChartPlace& place = packing.places[i];
+    ChartMask mask = charts[i];
+    for (int turn = 0; turn < place.turns; ++turn) mask = mask.Turned();
+    for (int x = 0; x < mask.Width(); ++x) {
+      for (int y = 0; y < mask.Height(); ++y) {
+        if (!mask.IsTaken(x, y)) continue;
+        EXPECT_TRUE(place.x + x < size && place.y + y < size && place.x >= 0 && place.y >= 0);
+        EXPECT_TRUE(place.page >= 0 && place.page < packing.pages);
+        const size_t texel =
+            (size_t(place.page) * size_t(size) + size_t(place.x + x)) * size_t(size) +
+            size_t(place.y + y);
+        EXPECT_EQ(count[texel]++, 0);
+        ++total;
+      }
+    }
+  }
+  return total;
+}
+
+TEST(ChartPacking, AMaskTurnsLeft) {
+  ChartMask mask(3, 100);
+  mask.Take(0, 10, 90);
+  mask.Take(2, 99, 100);
+  const ChartMask turned = mask.Turned();
+  EXPECT_EQ(turned.Width(), 100);
+  EXPECT_EQ(turned.Height(), 3);
+  EXPECT_TRUE(turned.IsTaken(99 - 10, 0));
+  EXPECT_TRUE(turned.IsTaken(99 - 89, 0));
+  EXPECT_FALSE(turned.IsTaken(99 - 90, 0));
+  EXPECT_TRUE(turned.IsTaken(0, 2));
+  const ChartMask round = turned.Turned().Turned().Turned();
+  for (int x = 0; x < 3; ++x) {
+    for (int y = 0; y < 100; ++y) EXPECT_EQ(round.IsTaken(x, y), mask.IsTaken(x, y));
+  }
+}
+
+TEST(ChartPacking, NoTexelIsTakenTwice) {
+  Random random(5);
+  std::vector<ChartMask> charts;
+  int64_t area = 0;
+  for (int i = 0; i < 300; ++i) {
+    const int width = 2 + int(random.UniformDouble() * 40),
+              height = 2 + int(random.UniformDouble() * 40);
+    ChartMask mask(width, height);
+    for (int x = 0; x < width; ++x) {
+      const int low = int(random.UniformDouble() * height),
+                high = low + 1 + int(random.UniformDouble() * (height - low - 1));
+      mask.Take(x, low, high);
+      area += high - low;
+    }
+    charts.push_back(mask);
+  }
+  const Packing packing = PackCharts(charts, 256);
+  EXPECT_EQ(Taken(charts, packing, 256), area);
+  EXPECT_LE(packing.lastHeight, 256);
+}
+
+TEST(ChartPacking, EqualSquaresFillAPage) {
+  const std::vector<ChartMask> charts(16, Filled(16, 16));
+  const Packing packing = PackCharts(charts, 64);
+  EXPECT_EQ(packing.pages, 1);
+  EXPECT_EQ(Taken(charts, packing, 64), 64 * 64);
+}
+
+TEST(ChartPacking, SmallChartsLieWithinFrames) {
+  std::vector<ChartMask> charts = {Frame(128, 128, 4)};
+  for (int i = 0; i < 9; ++i) charts.push_back(Filled(36, 36));
+  const Packing packing = PackCharts(charts, 128);
+  EXPECT_EQ(packing.pages, 1);
+  EXPECT_EQ(Taken(charts, packing, 128), 128 * 128 - 120 * 120 + 9 * 36 * 36);
+}
+
+TEST(ChartPacking, WhatDoesNotFitGoesOnTheNextPage) {
+  const std::vector<ChartMask> charts(5, Filled(32, 32));
+  const Packing packing = PackCharts(charts, 64);
+  EXPECT_EQ(packing.pages, 2);
+  EXPECT_EQ(packing.lastHeight, 32);
+  EXPECT_EQ(Taken(charts, packing, 64), 5 * 32 * 32);
+}
+
+TEST(ChartPacking, NoneAndTooLarge) {
+  EXPECT_EQ(PackCharts({}, 64).pages, 0);
+  EXPECT_THROW(PackCharts({Filled(65, 2)}, 64), Error);
+}
+
+}  // namespace
+}  // namespace lambert

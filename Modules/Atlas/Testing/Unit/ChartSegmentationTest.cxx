@@ -1,0 +1,159 @@
+#include "Atlas/Core/ChartSegmentation.h"
+
+#include <gtest/gtest.h>
+
+#include "Clustering/Testing/Unit/ClusteringMeshes.h"
+#include "Common/Core/Error.h"
+#include "Common/Core/Parallel.h"
+
+namespace lambert {
+namespace {
+
+struct Clustered {
+  TriangleMesh mesh;
+  ClusterTree tree;
+  explicit Clustered(TriangleMesh mesh_) : mesh(std::move(mesh_)) {
+    tree = ClusterFaces(&mesh, {});
+  }
+};
+
+double Cross2(const Vec2f& a, const Vec2f& b, const Vec2f& c) {
+  const Vec2d u(b - a), v(c - a);
+  return u.x * v.y - u.y * v.x;
+}
+
+bool Holds(const std::array<Vec2f, 3>& t, const Vec2f& p) {
+  return Cross2(t[0], t[1], p) > 0 && Cross2(t[1], t[2], p) > 0 && Cross2(t[2], t[0], p) > 0;
+}
+
+/// Every face lies in one chart; no place of a chart is taken twice, by random places in its faces.
+void ExpectValid(const TriangleMesh& mesh, const ChartSet& set) {
+  int32_t next = 0;
+  Random random(3);
+  for (const Chart& chart : set.charts) {
+    ASSERT_EQ(chart.firstFace, next);
+    next += chart.faceCount;
+    for (int sample = 0; sample < 20; ++sample) {
+      const int32_t face = chart.firstFace + int32_t(random.UniformDouble() * chart.faceCount);
+      const auto& t = set.places[size_t(face)];
+      float u = random.Uniform(), v = random.Uniform();
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      const Vec2f p = t[0] + (t[1] - t[0]) * u + (t[2] - t[0]) * v;
+      int taken = 0;
+      for (int32_t f = chart.firstFace; f < next; ++f) taken += Holds(set.places[size_t(f)], p);
+      EXPECT_LE(taken, 1);
+    }
+    for (int32_t f = chart.firstFace; f < next; ++f) {
+      for (size_t c = 0; c < 3; ++c) {
+        EXPECT_GE(set.corners[size_t(f)][c], 0);
+        EXPECT_LT(set.corners[size_t(f)][c], chart.cornerCount);
+        EXPECT_TRUE(std::isfinite(set.places[size_t(f)][c].x));
+      }
+    }
+  }
+  EXPECT_EQ(next, mesh.FaceCount());
+}
+
+TEST(ChartSegmentation, WhatIsFlatIsOneChart) {
+  const Clustered grid(FlatGrid(12));
+  const ChartSet set = CutIntoCharts(grid.mesh, grid.tree);
+  ASSERT_EQ(set.charts.size(), 1u);
+  EXPECT_TRUE(set.charts[0].isProjected);
+  ExpectValid(grid.mesh, set);
+}
+
+TEST(ChartSegmentation, ClosedAndHighGenusSurfacesFallIntoFewCharts) {
+  for (const TriangleMesh& mesh : {Sphere(20), Torus(40, 20)}) {
+    const Clustered closed(mesh);
+    const ChartSet set = CutIntoCharts(closed.mesh, closed.tree);
+    EXPECT_GE(set.charts.size(), 2u);
+    EXPECT_LE(set.charts.size(), 24u);
+    ExpectValid(closed.mesh, set);
+  }
+}
+
+TEST(ChartSegmentation, LengthsKeepWithinTheStretch) {
+  const Clustered sphere(Sphere(24));
+  size_t charts = 0;
+  for (const double stretch : {2., 1.3, 1.1}) {
+    ChartOptions options;
+    options.stretch = stretch;
+    const ChartSet set = CutIntoCharts(sphere.mesh, sphere.tree, options);
+    EXPECT_GE(set.charts.size(), charts);
+    charts = set.charts.size();
+    for (int64_t face = 0; face < sphere.mesh.FaceCount(); ++face) {
+      for (int c = 0; c < 3; ++c) {
+        const Vec2f d =
+            set.places[size_t(face)][size_t((c + 1) % 3)] - set.places[size_t(face)][size_t(c)];
+        const double length =
+            double(Length(sphere.mesh.Corner(face, (c + 1) % 3) - sphere.mesh.Corner(face, c)));
+        EXPECT_LT(std::hypot(double(d.x), double(d.y)), 1.001 * stretch * length);
+        EXPECT_GT(std::hypot(double(d.x), double(d.y)), 0.999 / stretch * length);
+      }
+    }
+  }
+}
+
+TEST(ChartSegmentation, HeapsOfTrianglesAreNoHarm) {
+  for (uint64_t seed = 1; seed <= 8; ++seed) {
+    SCOPED_TRACE(seed);
+    const Clustered soup(Soup(seed, 30, 150));
+    ExpectValid(soup.mesh, CutIntoCharts(soup.mesh, soup.tree));
+  }
+  const Clustered fan(NonManifoldFan(7)), band(MoebiusBand(40, 4)), needles(SliverGrid(20));
+  for (const Clustered* c : {&fan, &band, &needles}) {
+    ExpectValid(c->mesh, CutIntoCharts(c->mesh, c->tree));
+  }
+}
+
+TEST(ChartSegmentation, ACrumpledSheetIsValid) {
+  const Clustered sheet(GridMesh(40, 40, [](double u, double v) {
+    const double bump = 0.04 * std::sin(31 * u) * std::cos(27 * v + 3 * u);
+    return Vec3f(float(u), float(v), float(bump));
+  }));
+  ExpectValid(sheet.mesh, CutIntoCharts(sheet.mesh, sheet.tree));
+}
+
+TEST(ChartSegmentation, LongAndEmptyChartsAreCut) {
+  const Clustered grid(FlatGrid(12));
+  ChartOptions options;
+  options.longest = 0.5;
+  const ChartSet set = CutIntoCharts(grid.mesh, grid.tree, options);
+  EXPECT_GE(set.charts.size(), 4u);
+  ExpectValid(grid.mesh, set);
+  options.longest = 0.01;  // An edge is longer: no cut helps.
+  EXPECT_EQ(CutIntoCharts(grid.mesh, grid.tree, options).charts.size(), 1u);
+
+  const Clustered frame(
+      GridMesh(24, 1, [](double u, double v) { return OnTurn(u, 2 - 0.1 * v, 0); }));
+  EXPECT_EQ(CutIntoCharts(frame.mesh, frame.tree).charts.size(), 1u);
+  ChartOptions full;
+  full.mostEmpty = 3;
+  EXPECT_GE(CutIntoCharts(frame.mesh, frame.tree, full).charts.size(), 2u);
+}
+
+TEST(ChartSegmentation, TwoThreadsCutAsOne) {
+  const Clustered torus(Torus(60, 30));
+  SetThreadCount(1);
+  const ChartSet one = CutIntoCharts(torus.mesh, torus.tree);
+  SetThreadCount(2);
+  const ChartSet two = CutIntoCharts(torus.mesh, torus.tree);
+  SetThreadCount(0);
+  EXPECT_EQ(one.charts.size(), two.charts.size());
+  EXPECT_EQ(one.places, two.places);
+}
+
+TEST(ChartSegmentation, OptionsOutOfRangeAndCancelling) {
+  const Clustered grid(FlatGrid(2));
+  ChartOptions options;
+  options.stretch = 0.5;
+  EXPECT_THROW(CutIntoCharts(grid.mesh, grid.tree, options), Error);
+  options = {};
+  options.longest = -1;
+  EXPECT_THROW(CutIntoCharts(grid.mesh, grid.tree, options), Error);
+  const auto cancel = [](double, const char*) { return false; };
+  EXPECT_THROW(CutIntoCharts(grid.mesh, grid.tree, {}, cancel), Cancelled);
+}
+
+}  // namespace
+}  // namespace lambert
