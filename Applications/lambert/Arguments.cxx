@@ -54,6 +54,50 @@ CLI::Validator NotNegative() {
   return Within(0, std::numeric_limits<float>::max(), "of 0 or more");
 }
 
+void AddProgress(CLI::App* command, ProgressStyle* progress) {
+  const std::map<std::string, ProgressStyle> styles{{"auto", ProgressStyle::Auto},
+                                                    {"plain", ProgressStyle::Plain},
+                                                    {"none", ProgressStyle::None}};
+  command
+      ->add_option_function<std::string>(
+          "--progress",
+          [progress, styles](const std::string& name) { *progress = styles.at(name); },
+          "auto: a bar on a terminal, lines in a log; plain; none")
+      ->check(CLI::IsMember({"auto", "plain", "none"}))
+      ->default_str("auto");
+}
+
+void RequirePngName(const std::string& image) {
+  const std::string ending = std::filesystem::path(image).extension().string();
+  if (!image.empty() && ending != ".png" && ending != ".PNG") {
+    throw CLI::ValidationError("--image", "the name has to end in .png");
+  }
+}
+
+/// Files that a run reads and writes.
+class FilesOfRun {
+ public:
+  explicit FilesOfRun(const std::vector<std::string>& scene) {
+    for (const std::string& name : scene) this->Add("SCENE", name, false);
+  }
+
+  /// Throws CLI::ValidationError where an output would write over another file of the run.
+  void Add(const std::string& option, const std::string& name, bool isOutput) {
+    namespace fs = std::filesystem;
+    if (name.empty()) return;
+    std::error_code ignored;
+    const fs::path place = fs::weakly_canonical(fs::absolute(name, ignored), ignored);
+    if (fs::is_character_file(place, ignored) || fs::is_fifo(place, ignored)) return;
+    const auto [other, isNew] = uses_.emplace(place.empty() ? name : place.string(), option);
+    if (!isNew && isOutput) {
+      throw CLI::ValidationError(option, "would write over the file of " + other->second);
+    }
+  }
+
+ private:
+  std::map<std::string, std::string> uses_;  ///< a file, and the option that names it
+};
+
 }  // namespace
 
 void SceneArguments::AddTo(CLI::App* command) {
@@ -174,15 +218,7 @@ void SolveArguments::AddTo(CLI::App* command) {
       ->expected(0, 1)
       ->default_str(std::to_string(kDefaultVerifyPoints))
       ->check(CLI::Range(1, 10000000));
-  const std::map<std::string, ProgressStyle> styles{{"auto", ProgressStyle::Auto},
-                                                    {"plain", ProgressStyle::Plain},
-                                                    {"none", ProgressStyle::None}};
-  command
-      ->add_option_function<std::string>(
-          "--progress", [this, styles](const std::string& name) { progress = styles.at(name); },
-          "auto: a bar on a terminal, lines in a log; plain; none")
-      ->check(CLI::IsMember({"auto", "plain", "none"}))
-      ->default_str("auto");
+  AddProgress(command, &progress);
 }
 
 void SolveArguments::Check() const {
@@ -193,11 +229,13 @@ void SolveArguments::Check() const {
   if (probe.empty() != probeOutput.empty()) {
     throw CLI::ValidationError("--probe", "--probe and --probe-output belong together");
   }
-  const std::string imageEnding = std::filesystem::path(image).extension().string();
-  if (!image.empty() && imageEnding != ".png" && imageEnding != ".PNG") {
-    throw CLI::ValidationError("--image", "the name has to end in .png");
-  }
-  RequireDifferentFiles();
+  RequirePngName(image);
+  FilesOfRun files(scene.files);
+  files.Add("--probe", probe, false);
+  files.Add("--output", output, true);
+  files.Add("--probe-output", probeOutput, true);
+  files.Add("--image", image, true);
+  files.Add("--report", report, true);
   ImageSize();
   ImageCamera();
 }
@@ -212,27 +250,6 @@ void SolveArguments::RequireOptionsOfMethod() const {
       throw CLI::ValidationError(option, "is no option of --method " + chosen.name);
     }
   }
-}
-
-void SolveArguments::RequireDifferentFiles() const {
-  namespace fs = std::filesystem;
-  std::map<std::string, std::string> uses;  // A file, and the option that names it.
-  const auto add = [&](const std::string& option, const std::string& name, bool isOutput) {
-    if (name.empty()) return;
-    std::error_code ignored;
-    const fs::path place = fs::weakly_canonical(fs::absolute(name, ignored), ignored);
-    if (fs::is_character_file(place, ignored) || fs::is_fifo(place, ignored)) return;
-    const auto [other, isNew] = uses.emplace(place.empty() ? name : place.string(), option);
-    if (!isNew && isOutput) {
-      throw CLI::ValidationError(option, "would write over the file of " + other->second);
-    }
-  };
-  for (const std::string& name : scene.files) add("SCENE", name, false);
-  add("--probe", probe, false);
-  add("--output", output, true);
-  add("--probe-output", probeOutput, true);
-  add("--image", image, true);
-  add("--report", report, true);
 }
 
 std::array<int, 2> SolveArguments::ImageSize() const {
@@ -279,6 +296,46 @@ RadiosityRunOptions SolveArguments::RunOptions() const {
   const auto pixels = ImageSize();
   if (!image.empty()) options.outputSeconds += 0.5 + 2e-6 * pixels[0] * pixels[1];
   return options;
+}
+
+void AtlasArguments::AddTo(CLI::App* command) {
+  scene.AddTo(command);
+  command->add_option("-o,--output", output, "Mesh with its texture coordinates, .vtp")->required();
+  command->add_option("--pages", atlas.pages, "Pages that the charts may take")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--page-size", atlas.pageSize, "Texels along a side of a page")
+      ->check(CLI::Range(16, 16384))
+      ->capture_default_str();
+  command
+      ->add_option("--texel-size", atlas.texelSize,
+                   "m, on up to 256 pages; 0: what fills the pages")
+      ->check(NotNegative())
+      ->capture_default_str();
+  command->add_option("--padding", atlas.padding, "Texels between a chart and what it takes")
+      ->check(CLI::Range(0, 64))
+      ->capture_default_str();
+  command
+      ->add_option("--stretch", atlas.stretch, "By which lengths in a chart grow or shrink at most")
+      ->check(Within(1, 1e6, "from 1 to 1e6"))
+      ->capture_default_str();
+  command->add_option("--threads", threads, "Threads; 0: all processors")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_option("--image", image, "PNG picture of the charts, pages side by side");
+  command->add_option("--report", report, "Account of the run, JSON");
+  AddProgress(command, &progress);
+}
+
+void AtlasArguments::Check() const {
+  if (std::filesystem::path(output).extension() != ".vtp") {
+    throw CLI::ValidationError("--output", "the name has to end in .vtp");
+  }
+  RequirePngName(image);
+  FilesOfRun files(scene.files);
+  files.Add("--output", output, true);
+  files.Add("--image", image, true);
+  files.Add("--report", report, true);
 }
 
 void InfoArguments::AddTo(CLI::App* command) {

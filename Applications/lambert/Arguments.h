@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "Atlas/Core/RadiosityAtlas.h"
 #include "Engine/RadiosityRun.h"
 #include "Scene/Core/Scene.h"
 
@@ -59,12 +60,22 @@ struct SolveArguments {
   RadiosityRunOptions RunOptions() const;
 
  private:
-  /// Throws CLI::ValidationError where an output would write over another file of the run.
-  void RequireDifferentFiles() const;
   /// Throws CLI::ValidationError where an option was given that is another method's.
   void RequireOptionsOfMethod() const;
 
   CLI::App* command_ = nullptr;
+};
+
+struct AtlasArguments {
+  SceneArguments scene;
+  std::string output, image, report;
+  AtlasOptions atlas;
+  int threads = 0;
+  ProgressStyle progress = ProgressStyle::Auto;
+
+  void AddTo(CLI::App* command);
+  /// Throws CLI::ValidationError where names have the wrong ending or name one file twice.
+  void Check() const;
 };
 
 struct InfoArguments {

@@ -7,5 +7,6 @@ namespace lambert {
 
 int Solve(const SolveArguments& arguments);
 int Info(const InfoArguments& arguments);
+int Atlas(const AtlasArguments& arguments);
 
 }  // namespace lambert

@@ -36,17 +36,21 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   lambert::SolveArguments solve;
   lambert::InfoArguments info;
+  lambert::AtlasArguments atlas;
   lambert::BenchArguments bench;
   CLI::App* solveCommand = app.add_subcommand("solve", "Light a scene");
   CLI::App* infoCommand = app.add_subcommand("info", "Say what a scene holds");
   CLI::App* benchCommand = app.add_subcommand("bench", "Chart methods: error, time, elements");
+  CLI::App* atlasCommand = app.add_subcommand("atlas", "Lay a scene flat for light maps");
   solve.AddTo(solveCommand);
   info.AddTo(infoCommand);
   bench.AddTo(benchCommand);
+  atlas.AddTo(atlasCommand);
   try {
     app.parse(argc, argv);
     if (*solveCommand) solve.Check();
     if (*benchCommand) bench.Check();
+    if (*atlasCommand) atlas.Check();
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kWrongUsage;
   }
@@ -56,6 +60,7 @@ int main(int argc, char** argv) {
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   try {
     if (*benchCommand) return lambert::Bench(bench);
+    if (*atlasCommand) return lambert::Atlas(atlas);
     return *infoCommand ? lambert::Info(info) : lambert::Solve(solve);
   } catch (const lambert::Cancelled&) {
     return Complain("Interrupted before the first iteration; nothing was written.", kFailed);

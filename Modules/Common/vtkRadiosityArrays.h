@@ -26,6 +26,8 @@ class LAMBERTCOMMON_EXPORT vtkRadiosityArrays : public vtkObject {
   static const char* InputFaceId() { return "InputFaceId"; }    ///< vtkIdType, refined mesh
   static const char* Side() { return "Side"; }                  ///< unsigned char, 0 front, 1 back
   static const char* ClusterId() { return "ClusterId"; }        ///< int
+  static const char* ChartId() { return "ChartId"; }            ///< int, of an atlas
+  static const char* PageId() { return "PageId"; }              ///< int, of an atlas
   static const char* LeafId() { return "LeafId"; }  ///< vtkIdType, leaf element, refined mesh
   ///@}
 
@@ -34,6 +36,7 @@ class LAMBERTCOMMON_EXPORT vtkRadiosityArrays : public vtkObject {
   static const char* Radiosity() { return "Radiosity"; }                ///< 3 float, W/m2
   static const char* IrradianceVector() { return "IrradianceVector"; }  ///< 9 float, W/m2
   static const char* StandardError() { return "StandardError"; }        ///< 3 float, W/m2
+  static const char* LightMapTCoords() { return "LightMapTCoords"; }    ///< 2 float, [0, 1]
   /// 3 float, unit, of the surface that a point lies on
   static const char* GeometricNormals() { return "GeometricNormals"; }
   ///@}

@@ -114,6 +114,7 @@ class Segmentation {
     }
     if (!IsWithin(mesh, map, options_.longest)) return {};
     if (!IsFull(map, double(node.area), options_.mostEmpty)) return {};
+    chart.stretch = float(stretch);
     this->Keep(chart, mesh, map);
     return chart;
   }
@@ -139,6 +140,12 @@ class Segmentation {
 
 }  // namespace
 
+float LargestStretch(const ChartSet& set) {
+  float largest = 1;
+  for (const Chart& chart : set.charts) largest = std::max(largest, chart.stretch);
+  return largest;
+}
+
 ChartSet CutIntoCharts(const TriangleMesh& mesh, const ClusterTree& tree,
                        const ChartOptions& options, const ProgressCallback& progress) {
   if (!(options.stretch >= 1 && std::isfinite(options.stretch))) {
@@ -146,6 +153,12 @@ ChartSet CutIntoCharts(const TriangleMesh& mesh, const ClusterTree& tree,
   }
   if (!(options.longest >= 0)) throw Error("A chart's extent is 0 m or more.");
   if (!(options.mostEmpty >= 0)) throw Error("What a chart leaves empty is 0 m2 or more.");
+  int64_t faces = 0;
+  for (const int32_t root : tree.surfaceRoots) faces += tree.nodes[size_t(root)].faceCount;
+  if (faces != mesh.FaceCount()) {
+    throw Error("The cluster tree holds " + std::to_string(faces) + " faces, the mesh " +
+                std::to_string(mesh.FaceCount()) + ".");
+  }
   return Segmentation(mesh, tree, options).Run(progress);
 }
 

@@ -27,6 +27,7 @@ struct Chart {
   int32_t firstFace = 0, faceCount = 0;
   int32_t cornerCount = 0;   ///< different places in it
   bool isProjected = false;  ///< seen along its normal, else a conformal map
+  float stretch = 1;         ///< by which lengths in it grow or shrink at most
 };
 
 struct ChartSet {
@@ -38,9 +39,13 @@ struct ChartSet {
   std::vector<std::array<int32_t, 3>> corners;
 };
 
+/// Of all its charts; 1 where there are none.
+float LargestStretch(const ChartSet& set);
+
 /// The largest clusters that a map lays flat without overlaps and within the stretch. `mesh` is in
 /// the order of `tree`. A face alone always is a chart. Does not depend on the number of threads.
-/// Throws Error for options out of range, Cancelled.
+/// Throws Error for options out of range and where the tree is not that
+/// of the mesh, Cancelled.
 ChartSet CutIntoCharts(const TriangleMesh& mesh, const ClusterTree& tree,
                        const ChartOptions& options = {}, const ProgressCallback& progress = {});
 

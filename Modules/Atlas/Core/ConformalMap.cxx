@@ -13,9 +13,11 @@ namespace {
 using Complex = std::complex<double>;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// A triangle is flipped where it lies on the wrong side of its longest edge by more than this part
-/// of its length: less is what rounding makes of slivers.
-constexpr double kFlipped = 1e-3;
+/// A triangle is thought to be this part of its length high at least: needles count no more.
+constexpr double kLeastHeight = 1e-3;
+/// It is flipped where it lies on the wrong side of its longest edge by more than this part of its
+/// length: less is what the positions of points in single precision make of slivers.
+constexpr double kRounding = 1e-6;
 
 /// Two vertices of the border far apart: the farthest from any, and the farthest from that.
 std::array<int32_t, 2> FarVertices(const ChartMesh& chart) {
@@ -91,7 +93,7 @@ std::vector<Vec2d> ConformalMap(const ChartMesh& chart) {
   for (size_t t = 0; t < chart.triangles.size(); ++t) {
     const FlatTriangle flat = Flatten(chart, t);
     if (!(flat.length > 0)) continue;
-    const double doubleArea = flat.length * std::max(flat.height, kFlipped * flat.length);
+    const double doubleArea = flat.length * std::max(flat.height, kLeastHeight * flat.length);
     const Complex corner[3] = {0, flat.length, Complex(flat.x, flat.height)};
     int32_t vertex[3];
     Complex opposite[3];
@@ -153,7 +155,7 @@ double Stretch(const ChartMesh& chart, const std::vector<Vec2d>& map) {
     const Vec2d along = (p[1] - p[0]) * (1 / flat.length);
     const double square = along.x * along.x + along.y * along.y;
     const double doubleArea = 2 * SignedArea(p[0], p[1], p[2]);
-    if (!(doubleArea >= -kFlipped * square * flat.length * flat.length)) return 0;
+    if (!(doubleArea >= -kRounding * square * flat.length * flat.length)) return 0;
     double large = square, small = square;
     if (!flat.IsSliver()) {
       const Vec2d across = (p[2] - p[0] - along * flat.x) * (1 / flat.height);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 
 #include "Atlas/Core/ChartPacking.h"
 #include "Clustering/Core/ClusterFrame.h"
@@ -21,6 +23,8 @@ constexpr double kMostEmpty = 0.01;
 constexpr int kAttempts = 10;
 /// What the next attempt shrinks by beyond what the last one tells.
 constexpr double kSafety = 0.99;
+/// Pages that an atlas may have where its texels' size is given.
+constexpr int kMostPages = 256;
 /// Lookups between texels take in what lies half a texel around a place.
 constexpr double kHalfTexel = 0.5;
 
@@ -82,6 +86,20 @@ class Layout {
   /// Texels a metre at which the longest chart still fits on a page.
   double MostDensity() const { return longest_ > 0 ? Room(options_) / longest_ : 1; }
   double Area() const { return area_; }
+
+  /// Throws Error where a chart is longer than a page, or all take too many pages.
+  void RequireRoom(double density) const {
+    const double page = double(options_.pageSize) * options_.pageSize;
+    if (density > this->MostDensity()) {
+      throw Error("A chart of " + std::to_string(longest_) + " m is longer than a page of " +
+                  std::to_string(options_.pageSize) +
+                  " texels; take larger pages or larger texels.");
+    }
+    if (area_ * density * density > kMostPages * page) {
+      throw Error("Texels so small would take more than " + std::to_string(kMostPages) +
+                  " pages; take larger ones or larger pages.");
+    }
+  }
 
   Packing Pack(double density) const {
     std::vector<ChartMask> masks(set_.charts.size());
@@ -216,6 +234,7 @@ RadiosityAtlas MakeRadiosityAtlas(const TriangleMesh& mesh, const ClusterTree& t
   double density = 0;
   if (options.texelSize > 0) {
     density = 1 / options.texelSize;
+    layout.RequireRoom(density);
     packing = layout.Pack(density);
   } else if (!atlas.set.charts.empty()) {
     density = FillPages(layout, options, &packing, progress);
@@ -253,6 +272,68 @@ RadiosityAtlas MakeRadiosityAtlas(const TriangleMesh& mesh, const ClusterTree& t
   }
   atlas.packSeconds = timer.Seconds();
   return atlas;
+}
+
+std::vector<Vec2f> SplitAtCharts(const RadiosityAtlas& atlas, TriangleMesh* mesh) {
+  TriangleMesh split;
+  std::vector<Vec2f> textureCoords;
+  std::vector<std::array<int32_t, 3>> triangles(mesh->triangles.size());
+  std::map<std::array<int32_t, 2>, int32_t> pointOfCorner;  // By place in the chart and old point.
+  for (const Chart& chart : atlas.set.charts) {
+    pointOfCorner.clear();
+    for (size_t f = size_t(chart.firstFace); f < size_t(chart.firstFace + chart.faceCount); ++f) {
+      for (size_t c = 0; c < 3; ++c) {
+        const int32_t old = mesh->triangles[f][c];
+        const auto [place, isNew] = pointOfCorner.try_emplace({atlas.set.corners[f][c], old},
+                                                              int32_t(split.positions.size()));
+        triangles[f][c] = place->second;
+        if (!isNew) continue;
+        split.positions.push_back(mesh->positions[size_t(old)]);
+        if (!mesh->normals.empty()) split.normals.push_back(mesh->normals[size_t(old)]);
+        if (!mesh->uvs.empty()) split.uvs.push_back(mesh->uvs[size_t(old)]);
+        textureCoords.push_back(atlas.textureCoords[f][c]);
+      }
+    }
+  }
+  mesh->positions = std::move(split.positions);
+  mesh->normals = std::move(split.normals);
+  mesh->uvs = std::move(split.uvs);
+  mesh->triangles = std::move(triangles);
+  return textureCoords;
+}
+
+std::vector<int32_t> FacesOfTexels(const RadiosityAtlas& atlas, int page) {
+  const int size = atlas.pageSize;
+  std::vector<int32_t> faces(size_t(size) * size_t(size), -1);
+  const auto middleFrom = [&](double x) { return std::max(0, int(std::ceil(x - 0.5))); };
+  const auto middleTo = [&](double x) { return std::min(size - 1, int(std::floor(x - 0.5))); };
+  for (size_t i = 0; i < atlas.set.charts.size(); ++i) {
+    if (atlas.pageOfChart[i] != page) continue;
+    const Chart& chart = atlas.set.charts[i];
+    for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+      Vec2d p[3];
+      for (size_t c = 0; c < 3; ++c) {
+        p[c] = Vec2d(atlas.textureCoords[size_t(f)][c]) * double(size);
+      }
+      // Rows of middles, each from the left edge of the triangle to the right.
+      const double low = std::min({p[0].y, p[1].y, p[2].y});
+      const double high = std::max({p[0].y, p[1].y, p[2].y});
+      for (int y = middleFrom(low); y <= middleTo(high); ++y) {
+        double left = size, right = 0;
+        for (int c = 0; c < 3; ++c) {
+          const Vec2d &a = p[c], &b = p[(c + 1) % 3];
+          const double part = (y + 0.5 - a.y) / (b.y - a.y);
+          if (!(part >= 0 && part <= 1)) continue;
+          left = std::min(left, a.x + part * (b.x - a.x));
+          right = std::max(right, a.x + part * (b.x - a.x));
+        }
+        for (int x = middleFrom(left); x <= middleTo(right); ++x) {
+          faces[size_t(y) * size_t(size) + size_t(x)] = f;
+        }
+      }
+    }
+  }
+  return faces;
 }
 
 }  // namespace lambert

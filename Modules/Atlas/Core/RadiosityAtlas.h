@@ -14,7 +14,7 @@ struct AtlasOptions {
   double stretch = 2;    ///< of a chart, as a factor, [1, inf)
   int pageSize = 1024;   ///< texels along a side, [16, 16384]
   int pages = 1;         ///< the budget, [1, inf); counts where `texelSize` is 0
-  double texelSize = 0;  ///< m, [0, inf), on as many pages as it takes; 0: what fills the pages
+  double texelSize = 0;  ///< m, [0, inf), on up to 256 pages; 0: what fills the pages
   int padding = 2;       ///< texels between a chart and the edge of what it takes, [0, 64]
 };
 
@@ -34,5 +34,13 @@ struct RadiosityAtlas {
 RadiosityAtlas MakeRadiosityAtlas(const TriangleMesh& mesh, const ClusterTree& tree,
                                   const AtlasOptions& options = {},
                                   const ProgressCallback& progress = {});
+
+/// Gives every chart points of its own: a point whose charts or places in them differ becomes
+/// several. Returns the texture coordinates of each, [0, 1].
+std::vector<Vec2f> SplitAtCharts(const RadiosityAtlas& atlas, TriangleMesh* mesh);
+
+/// By texel of a page, row after row from below: the face that holds its middle; -1 where none
+/// does.
+std::vector<int32_t> FacesOfTexels(const RadiosityAtlas& atlas, int page);
 
 }  // namespace lambert

@@ -1,0 +1,123 @@
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "Atlas/vtkAtlasAdapter.h"
+#include "Commands.h"
+#include "Common/Core/Error.h"
+#include "Common/Core/Parallel.h"
+#include "Common/Core/Random.h"
+#include "Engine/SolutionFile.h"
+#include "Interrupt.h"
+#include "ProgressDisplay.h"
+
+namespace lambert {
+namespace {
+
+/// Charts in colours of their own, pages side by side.
+void WriteCharts(const RadiosityAtlas& atlas, const std::string& fileName) {
+  constexpr unsigned char kEmpty = 24;
+  constexpr int64_t kMostPixels = int64_t(1) << 28;
+  constexpr uint64_t kDarkest = 80, kRange = 160;
+  const int size = atlas.pageSize, pages = std::max(1, atlas.pages);
+  if (int64_t(size) * size * pages > kMostPixels) {
+    throw Error(
+        "The picture would have more than 268 million pixels; take fewer or smaller pages.");
+  }
+  std::vector<int32_t> chartOfFace(atlas.textureCoords.size());
+  for (size_t i = 0; i < atlas.set.charts.size(); ++i) {
+    const Chart& chart = atlas.set.charts[i];
+    std::fill_n(chartOfFace.begin() + chart.firstFace, chart.faceCount, int32_t(i));
+  }
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(size * pages, size, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  auto* texels = static_cast<unsigned char*>(image->GetScalarPointer());
+  std::fill_n(texels, size_t(size) * size_t(size) * size_t(pages) * 3, kEmpty);
+  for (int page = 0; page < atlas.pages; ++page) {
+    const std::vector<int32_t> faces = FacesOfTexels(atlas, page);
+    for (size_t i = 0; i < faces.size(); ++i) {
+      if (faces[i] < 0) continue;
+      const size_t x = size_t(page) * size_t(size) + i % size_t(size), y = i / size_t(size);
+      const uint64_t bits = HashBits(uint64_t(chartOfFace[size_t(faces[i])]));
+      for (size_t band = 0; band < 3; ++band) {
+        texels[(y * size_t(size * pages) + x) * 3 + band] =
+            static_cast<unsigned char>(kDarkest + (bits >> (16 * band)) % kRange);
+      }
+    }
+  }
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(image);
+  writer->SetFileName(fileName.c_str());
+  writer->Write();
+  if (writer->GetErrorCode() != 0) throw Error("The picture " + fileName + " was not written.");
+}
+
+void WriteReport(const RadiosityAtlas& atlas, const std::string& fileName) {
+  const nlohmann::ordered_json report = {
+      {"faces", atlas.textureCoords.size()},
+      {"charts", atlas.set.charts.size()},
+      {"pages", atlas.pages},
+      {"page_size_texels", atlas.pageSize},
+      {"texel_size_m", atlas.texelSize},
+      {"utilisation", atlas.utilisation},
+      {"largest_stretch", LargestStretch(atlas.set)},
+      {"seconds", {{"charts", atlas.chartSeconds}, {"pack", atlas.packSeconds}}}};
+  std::ofstream file(fileName);
+  file << report.dump(2) << '\n';
+  if (!file.flush()) throw Error("The report " + fileName + " could not be written.");
+}
+
+}  // namespace
+
+int Atlas(const AtlasArguments& arguments) {
+  // Everything that can be refused is refused first.
+  for (const std::string& name : {arguments.output, arguments.image, arguments.report}) {
+    if (!name.empty()) RequireWritable(name);
+  }
+  SetThreadCount(arguments.threads);
+  CatchInterrupt();
+  ProgressDisplay display(arguments.progress);
+  const ProgressCallback progress = [&](double fraction, const char* detail) {
+    display.Update(fraction, detail);
+    return !IsInterrupted();
+  };
+
+  // The scene in clusters, those in charts, and charts on pages.
+  RadiosityRunOptions options;
+  arguments.scene.Apply(&options);
+  RadiosityRun run(options);
+  display.Begin("reading");
+  run.Load(progress);
+  display.Begin("clustering");
+  Scene scene = run.GetScene();
+  const ClusterTree tree = ClusterFaces(&scene.mesh, scene.parts, {}, nullptr, progress);
+  display.Begin("atlas");
+  const RadiosityAtlas atlas = MakeRadiosityAtlas(scene.mesh, tree, arguments.atlas, progress);
+
+  // What is asked for.
+  display.Begin("write");
+  vtkNew<vtkPolyData> mesh;
+  PolyDataFromAtlas(atlas, std::move(scene), mesh);
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(mesh);
+  writer->SetFileName(arguments.output.c_str());
+  if (!writer->Write()) throw Error("The output " + arguments.output + " could not be written.");
+  if (!arguments.image.empty()) WriteCharts(atlas, arguments.image);
+  if (!arguments.report.empty()) WriteReport(atlas, arguments.report);
+  display.EndStage();
+  display.Finish();
+  for (const std::string& warning : run.Warnings()) display.Say("warning: " + warning);
+  std::printf("%s: %zu faces in %zu charts on %d page(s) of %d texels, %g m each, %.0f %% used\n",
+              arguments.output.c_str(), atlas.textureCoords.size(), atlas.set.charts.size(),
+              atlas.pages, atlas.pageSize, atlas.texelSize, 100 * atlas.utilisation);
+  return 0;
+}
+
+}  // namespace lambert

@@ -1,0 +1,76 @@
+/**
+ * @class vtkRadiosityAtlas
+ * @brief A texture atlas for light maps: every surface in charts, laid flat and packed on pages.
+ *
+ * Input port 0: vtkPolyData of triangles in world space, with the arrays of vtkRadiosityArrays that
+ * it has. Input port 1 (optional): vtkTable, its cluster tree, as vtkFaceClustering leaves both;
+ * without it the filter clusters. Output: the mesh in the order of the tree, points split where
+ * charts meet, with point array `LightMapTCoords` (2 float, [0, 1], v upward) and cell arrays
+ * `ChartId` and `PageId`. Charts are clusters that least squares conformal maps lay flat without
+ * overlaps (thesis 5.2, levy2002).
+ */
+#ifndef vtkRadiosityAtlas_h
+#define vtkRadiosityAtlas_h
+
+#include "lambertAtlasModule.h"
+#include "vtkPolyDataAlgorithm.h"
+
+#include <memory>  // for the options
+
+namespace lambert {
+struct AtlasOptions;
+}
+
+class LAMBERTATLAS_EXPORT vtkRadiosityAtlas : public vtkPolyDataAlgorithm {
+ public:
+  static vtkRadiosityAtlas* New();
+  vtkTypeMacro(vtkRadiosityAtlas, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{ By which lengths in a chart grow or shrink at most, as a factor, [1, inf); default 2.
+  void SetStretch(double stretch);
+  double GetStretch();
+  ///@}
+  ///@{ Texels along a side of a page, [16, 16384]; default 1024.
+  void SetPageSize(int texels);
+  int GetPageSize();
+  ///@}
+  ///@{ Pages that charts may take, [1, inf), default 1; counts where TexelSize is 0.
+  void SetPages(int pages);
+  int GetPages();
+  ///@}
+  ///@{ Size of a texel, m, [0, inf), on up to 256 pages; default 0: what fills the pages.
+  void SetTexelSize(double metres);
+  double GetTexelSize();
+  ///@}
+  ///@{ Texels between a chart and the edge of what it takes, [0, 64]; default 2.
+  void SetPadding(int texels);
+  int GetPadding();
+  ///@}
+  /// The cluster tree of the input, as vtkFaceClustering's port 1 has it.
+  void SetClusterConnection(vtkAlgorithmOutput* tree) { this->SetInputConnection(1, tree); }
+
+  ///@{ What the last run made.
+  vtkIdType GetNumberOfCharts() { return this->NumberOfCharts; }
+  int GetNumberOfPages() { return this->NumberOfPages; }
+  double GetDeliveredTexelSize() { return this->DeliveredTexelSize; }  ///< m
+  double GetUtilisation() { return this->Utilisation; }  ///< area of charts over that of pages
+                                                         ///@}
+
+ protected:
+  vtkRadiosityAtlas();
+  ~vtkRadiosityAtlas() override;
+  int FillInputPortInformation(int port, vtkInformation* information) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+ private:
+  vtkRadiosityAtlas(const vtkRadiosityAtlas&) = delete;
+  void operator=(const vtkRadiosityAtlas&) = delete;
+
+  std::unique_ptr<lambert::AtlasOptions> Options;
+  vtkIdType NumberOfCharts = 0;
+  int NumberOfPages = 0;
+  double DeliveredTexelSize = 0, Utilisation = 0;
+};
+
+#endif
