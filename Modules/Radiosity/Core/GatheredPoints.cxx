@@ -15,9 +15,8 @@ namespace {
 constexpr float kReach = 0.5f;
 /// Rays to emitters that every point casts at first.
 constexpr int kFirstDirectRays = 4;
-/// Points that stand for more area than the mean get up to this many times the rays to emitters,
-/// and no point more than the other number of times as many as are wanted of all.
-constexpr double kMostByArea = 16, kMostByBoth = 32;
+/// Points that stand for more area than the mean get up to this many times the rays to emitters.
+constexpr double kMostByArea = 16;
 /// What a point is thought to see of the emitters where no neighbour tells.
 constexpr double kUnknownClear = 0.25;
 /// Half shadow that scatters so much as a relative variance a ray gets the wanted number of rays;
@@ -171,15 +170,14 @@ void GatheredPoints::LookIntoPenumbrae(int32_t first, const SampleNeighbours& ne
     const Record& record = records_[size_t(index)];
     const bool isPartial = this->IsInPenumbra(index, neighbours);
     const double scatter = this->ScatterOfShadow(index, neighbours, mean) / kUsualScatter;
-    const double part = area > 0 ? double(record.at.area) / area : 1;
-    const double byArea = std::min(kMostByArea, std::max(1.0, part));
-    double wanted = 0;
+    int wanted = 0;
     if (isPartial) {
-      const double byScatter = std::min(kMostByScatter, std::max(kLeastByScatter, scatter));
-      wanted = options_.penumbraRays * std::min(kMostByBoth, byScatter * byArea);
+      wanted =
+          int(options_.penumbraRays * std::min(kMostByScatter, std::max(kLeastByScatter, scatter)));
     }
-    if (isPartial || record.direct.isScattered) wanted += options_.directRays * byArea;
-    more[size_t(i)] = int(wanted);
+    if (isPartial || record.direct.isScattered) wanted += options_.directRays;
+    const double part = area > 0 ? double(record.at.area) / area : 1;
+    more[size_t(i)] = int(wanted * std::min(kMostByArea, std::max(1.0, part)));
   });
   this->CastMoreToEmitters(more, first, rays);
 }
