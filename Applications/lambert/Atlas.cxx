@@ -30,11 +30,7 @@ void WriteCharts(const RadiosityAtlas& atlas, const std::string& fileName) {
     throw Error(
         "The picture would have more than 268 million pixels; take fewer or smaller pages.");
   }
-  std::vector<int32_t> chartOfFace(atlas.textureCoords.size());
-  for (size_t i = 0; i < atlas.set.charts.size(); ++i) {
-    const Chart& chart = atlas.set.charts[i];
-    std::fill_n(chartOfFace.begin() + chart.firstFace, chart.faceCount, int32_t(i));
-  }
+  const std::vector<int32_t> chartOfFace = ChartOfFace(atlas.set);
   vtkNew<vtkImageData> image;
   image->SetDimensions(size * pages, size, 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);

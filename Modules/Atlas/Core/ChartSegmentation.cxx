@@ -140,6 +140,14 @@ class Segmentation {
 
 }  // namespace
 
+std::vector<int32_t> ChartOfFace(const ChartSet& set) {
+  std::vector<int32_t> chartOfFace(set.places.size());
+  for (size_t i = 0; i < set.charts.size(); ++i) {
+    std::fill_n(chartOfFace.begin() + set.charts[i].firstFace, set.charts[i].faceCount, int32_t(i));
+  }
+  return chartOfFace;
+}
+
 float LargestStretch(const ChartSet& set) {
   float largest = 1;
   for (const Chart& chart : set.charts) largest = std::max(largest, chart.stretch);

@@ -39,6 +39,8 @@ struct ChartSet {
   std::vector<std::array<int32_t, 3>> corners;
 };
 
+/// By face: its chart.
+std::vector<int32_t> ChartOfFace(const ChartSet& set);
 /// Of all its charts; 1 where there are none.
 float LargestStretch(const ChartSet& set);
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "Atlas/Core/ChartPacking.h"
+#include "Atlas/Core/TexelRaster.h"
 #include "Clustering/Core/ClusterFrame.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
@@ -246,6 +247,7 @@ RadiosityAtlas MakeRadiosityAtlas(const TriangleMesh& mesh, const ClusterTree& t
   }
   atlas.pages = packing.pages;
   atlas.pageSize = options.pageSize;
+  atlas.padding = options.padding;
   atlas.texelSize = density > 0 ? 1 / density : 0;
   atlas.pageOfChart.resize(atlas.set.charts.size());
   atlas.textureCoords.resize(size_t(mesh.FaceCount()));
@@ -305,32 +307,16 @@ std::vector<Vec2f> SplitAtCharts(const RadiosityAtlas& atlas, TriangleMesh* mesh
 std::vector<int32_t> FacesOfTexels(const RadiosityAtlas& atlas, int page) {
   const int size = atlas.pageSize;
   std::vector<int32_t> faces(size_t(size) * size_t(size), -1);
-  const auto middleFrom = [&](double x) { return std::max(0, int(std::ceil(x - 0.5))); };
-  const auto middleTo = [&](double x) { return std::min(size - 1, int(std::floor(x - 0.5))); };
   for (size_t i = 0; i < atlas.set.charts.size(); ++i) {
     if (atlas.pageOfChart[i] != page) continue;
     const Chart& chart = atlas.set.charts[i];
     for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
-      Vec2d p[3];
+      std::array<Vec2d, 3> corners;
       for (size_t c = 0; c < 3; ++c) {
-        p[c] = Vec2d(atlas.textureCoords[size_t(f)][c]) * double(size);
+        corners[c] = Vec2d(atlas.textureCoords[size_t(f)][c]) * double(size);
       }
-      // Rows of middles, each from the left edge of the triangle to the right.
-      const double low = std::min({p[0].y, p[1].y, p[2].y});
-      const double high = std::max({p[0].y, p[1].y, p[2].y});
-      for (int y = middleFrom(low); y <= middleTo(high); ++y) {
-        double left = size, right = 0;
-        for (int c = 0; c < 3; ++c) {
-          const Vec2d &a = p[c], &b = p[(c + 1) % 3];
-          const double part = (y + 0.5 - a.y) / (b.y - a.y);
-          if (!(part >= 0 && part <= 1)) continue;
-          left = std::min(left, a.x + part * (b.x - a.x));
-          right = std::max(right, a.x + part * (b.x - a.x));
-        }
-        for (int x = middleFrom(left); x <= middleTo(right); ++x) {
-          faces[size_t(y) * size_t(size) + size_t(x)] = f;
-        }
-      }
+      ForEachTexelOf(corners, size,
+                     [&](int x, int y) { faces[size_t(y) * size_t(size) + size_t(x)] = f; });
     }
   }
   return faces;

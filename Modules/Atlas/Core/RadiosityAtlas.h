@@ -22,7 +22,7 @@ struct RadiosityAtlas {
   ChartSet set;
   std::vector<int32_t> pageOfChart;                 ///< [0, pages)
   std::vector<std::array<Vec2f, 3>> textureCoords;  ///< by face: of its corners, [0, 1], v upward
-  int pages = 0, pageSize = 0;
+  int pages = 0, pageSize = 0, padding = 0;
   double texelSize = 0;    ///< m
   double utilisation = 0;  ///< area of the charts over that of the pages
   double chartSeconds = 0, packSeconds = 0;

@@ -1,0 +1,59 @@
+// The texels of a page that a triangle in the plane covers.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "Common/Core/Vector.h"
+
+namespace lambert {
+
+/// Calls visit(x, y) for every texel of a page of `size` x `size` whose middle lies in the triangle
+/// or on its border; corners in texels.
+template <class Visit>
+void ForEachTexelOf(const std::array<Vec2d, 3>& corners, int size, const Visit& visit) {
+  const auto from = [&](double x) { return std::max(0, int(std::ceil(x - 0.5))); };
+  const auto to = [&](double x) { return std::min(size - 1, int(std::floor(x - 0.5))); };
+  const double low = std::min({corners[0].y, corners[1].y, corners[2].y});
+  const double high = std::max({corners[0].y, corners[1].y, corners[2].y});
+  for (int y = from(low); y <= to(high); ++y) {
+    // A row of middles, from the left edge of the triangle to the right.
+    double left = size, right = 0;
+    for (size_t c = 0; c < 3; ++c) {
+      const Vec2d &a = corners[c], &b = corners[(c + 1) % 3];
+      const double part = (y + 0.5 - a.y) / (b.y - a.y);
+      if (!(part >= 0 && part <= 1)) continue;
+      left = std::min(left, a.x + part * (b.x - a.x));
+      right = std::max(right, a.x + part * (b.x - a.x));
+    }
+    for (int x = from(left); x <= to(right); ++x) visit(x, y);
+  }
+}
+
+/// Weights of the corners at a place in the plane; those of the nearest corner where the triangle
+/// has no area.
+inline std::array<double, 3> Barycentric(const std::array<Vec2d, 3>& corners, const Vec2d& place) {
+  const auto twice = [](const Vec2d& a, const Vec2d& b, const Vec2d& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  };
+  const double area = twice(corners[0], corners[1], corners[2]);
+  const std::array<double, 3> weights = {twice(corners[1], corners[2], place) / area,
+                                         twice(corners[2], corners[0], place) / area,
+                                         twice(corners[0], corners[1], place) / area};
+  if (std::isfinite(weights[0]) && std::isfinite(weights[1]) && std::isfinite(weights[2])) {
+    return weights;
+  }
+  size_t nearest = 0;
+  double least = std::numeric_limits<double>::max();
+  for (size_t c = 0; c < 3; ++c) {
+    const double d = std::hypot(corners[c].x - place.x, corners[c].y - place.y);
+    if (d < least) least = d, nearest = c;
+  }
+  std::array<double, 3> one = {0, 0, 0};
+  one[nearest] = 1;
+  return one;
+}
+
+}  // namespace lambert

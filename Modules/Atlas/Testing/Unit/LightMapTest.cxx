@@ -1,0 +1,149 @@
+#include "Atlas/Core/LightMap.h"
+
+#include <gtest/gtest.h>
+
+#include "Clustering/Testing/Unit/ClusteringMeshes.h"
+#include "Common/Core/Error.h"
+
+namespace lambert {
+namespace {
+
+struct Lit {
+  TriangleMesh mesh;
+  ClusterTree tree;
+  RadiosityAtlas atlas;
+  RadiositySolution solution;
+
+  /// Every face is a triangle of the solution, with light(position) on its front.
+  template <class Light>
+  Lit(TriangleMesh mesh_, const AtlasOptions& options, const Light& light)
+      : mesh(std::move(mesh_)) {
+    tree = ClusterFaces(&mesh, {});
+    atlas = MakeRadiosityAtlas(mesh, tree, options);
+    solution.mesh = mesh;
+    for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
+      solution.inputFaceId.push_back(face);
+      solution.side.push_back(kFront);
+    }
+    for (const Vec3f& p : mesh.positions) solution.irradiance.push_back(light(p));
+  }
+  LightMap Map() const { return MakeLightMap(mesh, atlas, solution); }
+
+  /// A lookup at a place of a face.
+  Spectrum At(const LightMap& map, int64_t face, float u, float v) const {
+    const auto& t = atlas.textureCoords[size_t(face)];
+    const int page = atlas.pageOfChart[size_t(ChartOfFace(atlas.set)[size_t(face)])];
+    return Lookup(map, page, t[0] + (t[1] - t[0]) * u + (t[2] - t[0]) * v);
+  }
+};
+
+AtlasOptions Pages(int size) {
+  AtlasOptions options;
+  options.pageSize = size;
+  return options;
+}
+
+Spectrum Slope(const Vec3f& p) { return {5 + p.x, 5 + p.y, 5 + p.z}; }
+
+TEST(LightMap, AnEvenLightIsEvenEverywhere) {
+  const Lit sphere(Sphere(12), Pages(128), [](const Vec3f&) { return Spectrum(3.f); });
+  const LightMap map = sphere.Map();
+  ASSERT_EQ(map.pages.size(), 1u);
+  for (const Spectrum& texel : map.pages[0]) {
+    EXPECT_NEAR(texel.r, 3, 1e-4);
+    EXPECT_NEAR(texel.b, 3, 1e-4);
+  }
+  EXPECT_GT(map.seamPoints, 100);
+  EXPECT_LT(map.before.largest, 1e-5);
+}
+
+// Light that is linear in space comes out as it is within a plane, but for the half texel at the
+// border that takes in what was extended.
+TEST(LightMap, ASlopeIsKept) {
+  const Lit plane(FlatGrid(10), Pages(256), Slope);
+  const LightMap map = plane.Map();
+  const float texel = float(plane.atlas.texelSize);
+  for (int64_t face = 0; face < plane.mesh.FaceCount(); face += 7) {
+    const Vec3f &a = plane.mesh.Corner(face, 0), &b = plane.mesh.Corner(face, 1),
+                &c = plane.mesh.Corner(face, 2);
+    const Vec3f p = a + (b - a) * 0.3f + (c - a) * 0.3f;
+    const Spectrum found = plane.At(map, face, 0.3f, 0.3f);
+    EXPECT_NEAR(found.r, 5 + p.x, 1e-3);
+    EXPECT_NEAR(found.g, 5 + p.y, 1e-3);
+    const Spectrum corner = plane.At(map, face, 0, 0);
+    EXPECT_NEAR(corner.r, 5 + a.x, texel);
+    EXPECT_NEAR(corner.g, 5 + a.y, texel);
+  }
+}
+
+TEST(LightMap, SeamsAreClosed) {
+  const Lit torus(Torus(60, 30), Pages(256), Slope);
+  const LightMap map = torus.Map();
+  EXPECT_GT(map.seamPoints, 500);
+  EXPECT_GT(map.before.rms, 0);
+  EXPECT_LT(map.after.rms, 0.2 * map.before.rms);
+  EXPECT_LT(map.after.largest, 0.5 * map.before.largest);
+  // What it took: no place has moved by more than light changes over two texels.
+  const float most = 2 * float(torus.atlas.texelSize);
+  for (int64_t face = 0; face < torus.mesh.FaceCount(); ++face) {
+    const Vec3f p =
+        (torus.mesh.Corner(face, 0) + torus.mesh.Corner(face, 1) + torus.mesh.Corner(face, 2)) /
+        3.f;
+    EXPECT_NEAR(torus.At(map, face, 1.f / 3, 1.f / 3).r, 5 + p.x, most);
+  }
+}
+
+// Where faces do not share their points light may jump, and stays as it is.
+TEST(LightMap, CreasesAreNoSeams) {
+  TriangleMesh tent;
+  tent.positions = {{0, 0, 0}, {1, 0, 1}, {1, 1, 1}, {1, 0, 1}, {2, 0, 0}, {1, 1, 1}};
+  tent.triangles = {{0, 1, 2}, {3, 4, 5}};
+  tent.materialId = {0, 0};
+  tent.Complete();
+  const Lit lit(tent, Pages(64), [](const Vec3f& p) { return Spectrum(p.x < 0.5f ? 1.f : 2.f); });
+  EXPECT_EQ(lit.Map().seamPoints, 0);
+}
+
+TEST(LightMap, TheBrighterSideIsKept) {
+  Lit plane(FlatGrid(4), Pages(64), [](const Vec3f&) { return Spectrum(1.f); });
+  RadiositySolution& solution = plane.solution;
+  const int32_t points = int32_t(solution.mesh.positions.size());
+  for (int32_t p = 0; p < points; ++p) {
+    solution.mesh.positions.push_back(solution.mesh.positions[size_t(p)]);
+    solution.irradiance.push_back(Spectrum(5.f));
+  }
+  const int64_t faces = plane.mesh.FaceCount();
+  for (int64_t face = 0; face < faces; ++face) {
+    const auto t = plane.mesh.triangles[size_t(face)];
+    solution.mesh.triangles.push_back({t[0] + points, t[2] + points, t[1] + points});
+    solution.inputFaceId.push_back(face);
+    solution.side.push_back(kBack);
+  }
+  EXPECT_NEAR(plane.At(plane.Map(), 0, 0.3f, 0.3f).r, 5, 1e-4);
+}
+
+TEST(LightMap, NeedlesAndHeapsHaveLightInEveryTexel) {
+  for (const TriangleMesh& mesh : {SliverGrid(12), Soup(3, 40, 120)}) {
+    const Lit lit(mesh, Pages(256), [](const Vec3f& p) { return Spectrum(1 + p.x * p.x); });
+    const LightMap map = lit.Map();
+    for (const Spectrum& texel : map.pages[0]) {
+      ASSERT_TRUE(texel.r >= 0.9f && texel.r < 2.2f) << texel.r;
+    }
+  }
+}
+
+TEST(LightMap, NothingAndWhatDoesNotBelongTogether) {
+  Lit plane(FlatGrid(2), Pages(64), Slope);
+  plane.solution.inputFaceId[0] = 99;
+  EXPECT_THROW(plane.Map(), Error);
+  Lit other(FlatGrid(3), Pages(64), Slope);
+  EXPECT_THROW(MakeLightMap(plane.mesh, other.atlas, other.solution), Error);
+  Lit dark(FlatGrid(2), Pages(64), Slope);
+  dark.solution = {};
+  for (const Spectrum& texel : dark.Map().pages[0]) EXPECT_EQ(texel.r, 0);
+  const auto cancel = [](double, const char*) { return false; };
+  EXPECT_THROW(MakeLightMap(other.mesh, other.atlas, other.solution, cancel), Cancelled);
+}
+
+}  // namespace
+}  // namespace lambert
