@@ -9,6 +9,7 @@
 #include <map>
 #include <sstream>
 
+#include "Engine/LightMapFile.h"
 #include "Engine/SolutionFile.h"
 
 namespace lambert {
@@ -65,6 +66,30 @@ void AddProgress(CLI::App* command, ProgressStyle* progress) {
           "auto: a bar on a terminal, lines in a log; plain; none")
       ->check(CLI::IsMember({"auto", "plain", "none"}))
       ->default_str("auto");
+}
+
+/// How charts are cut and packed.
+std::vector<CLI::Option*> AddAtlasOptions(CLI::App* command, AtlasOptions* atlas) {
+  return {
+      command->add_option("--pages", atlas->pages, "Pages that the charts may take")
+          ->check(CLI::Range(1, 1000000))
+          ->capture_default_str(),
+      command->add_option("--page-size", atlas->pageSize, "Texels along a side of a page")
+          ->check(CLI::Range(16, 16384))
+          ->capture_default_str(),
+      command
+          ->add_option("--texel-size", atlas->texelSize,
+                       "m, on up to 256 pages; 0: what fills the pages")
+          ->check(NotNegative())
+          ->capture_default_str(),
+      command->add_option("--padding", atlas->padding, "Texels between a chart and what it takes")
+          ->check(CLI::Range(0, 64))
+          ->capture_default_str(),
+      command
+          ->add_option("--stretch", atlas->stretch,
+                       "By which lengths in a chart grow or shrink at most")
+          ->check(Within(1, 1e6, "from 1 to 1e6"))
+          ->capture_default_str()};
 }
 
 void RequirePngName(const std::string& image) {
@@ -211,6 +236,9 @@ void SolveArguments::AddTo(CLI::App* command) {
   command->add_option("--exposure", exposure, "Stops (EV) brighter or darker")
       ->check(Within(-100, 100, "from -100 to 100"))
       ->capture_default_str();
+  CLI::Option* map = command->add_option(
+      "--lightmap", lightMap, "Mesh with texture coordinates, .vtp, its pages beside it as .hdr");
+  for (CLI::Option* option : AddAtlasOptions(command, &atlas)) option->needs(map);
   command->add_flag("--both-sides", bothSides, "PLY: keep both lit sides of a face");
   command->add_option("--report", report, "Account of the run, JSON");
   command
@@ -236,6 +264,15 @@ void SolveArguments::Check() const {
   files.Add("--probe-output", probeOutput, true);
   files.Add("--image", image, true);
   files.Add("--report", report, true);
+  if (!lightMap.empty()) {
+    if (std::filesystem::path(lightMap).extension() != ".vtp") {
+      throw CLI::ValidationError("--lightmap", "the name has to end in .vtp");
+    }
+    files.Add("--lightmap", lightMap, true);
+    for (const std::string& page : LightMapPageNames(lightMap, 1)) {
+      files.Add("--lightmap", page, true);
+    }
+  }
   ImageSize();
   ImageCamera();
 }
@@ -292,6 +329,7 @@ RadiosityRunOptions SolveArguments::RunOptions() const {
   options.solver = solver;
   options.timeLimit = time;
   if (!sky.empty()) options.sky = ToSpectrum(sky);
+  if (!lightMap.empty()) options.atlas = atlas;
   // A picture costs a GL context and four samples a pixel: some 2 s a megapixel drawn in software.
   const auto pixels = ImageSize();
   if (!image.empty()) options.outputSeconds += 0.5 + 2e-6 * pixels[0] * pixels[1];
@@ -301,24 +339,7 @@ RadiosityRunOptions SolveArguments::RunOptions() const {
 void AtlasArguments::AddTo(CLI::App* command) {
   scene.AddTo(command);
   command->add_option("-o,--output", output, "Mesh with its texture coordinates, .vtp")->required();
-  command->add_option("--pages", atlas.pages, "Pages that the charts may take")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  command->add_option("--page-size", atlas.pageSize, "Texels along a side of a page")
-      ->check(CLI::Range(16, 16384))
-      ->capture_default_str();
-  command
-      ->add_option("--texel-size", atlas.texelSize,
-                   "m, on up to 256 pages; 0: what fills the pages")
-      ->check(NotNegative())
-      ->capture_default_str();
-  command->add_option("--padding", atlas.padding, "Texels between a chart and what it takes")
-      ->check(CLI::Range(0, 64))
-      ->capture_default_str();
-  command
-      ->add_option("--stretch", atlas.stretch, "By which lengths in a chart grow or shrink at most")
-      ->check(Within(1, 1e6, "from 1 to 1e6"))
-      ->capture_default_str();
+  AddAtlasOptions(command, &atlas);
   command->add_option("--threads", threads, "Threads; 0: all processors")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

@@ -44,7 +44,8 @@ struct SolveArguments {
   double time = 0;
   int threads = 0;
   std::vector<float> sky;
-  std::string probe, probeOutput, image, size = "960x720", camera, report;
+  std::string probe, probeOutput, image, size = "960x720", camera, report, lightMap;
+  AtlasOptions atlas;
   bool probeGather = false, bothSides = false;
   double exposure = 0;
   ProgressStyle progress = ProgressStyle::Auto;

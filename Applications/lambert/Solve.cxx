@@ -9,6 +9,7 @@
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Timer.h"
 #include "Display/vtkRadiosityImageWriter.h"
+#include "Engine/LightMapFile.h"
 #include "Engine/ProbeFile.h"
 #include "Engine/RunReport.h"
 #include "Engine/SolutionFile.h"
@@ -21,8 +22,8 @@ namespace {
 
 /// Everything that can be refused is refused before the solver's first second.
 void CheckOutputs(const SolveArguments& arguments) {
-  for (const std::string& name :
-       {arguments.output, arguments.image, arguments.report, arguments.probeOutput}) {
+  for (const std::string& name : {arguments.output, arguments.image, arguments.report,
+                                  arguments.probeOutput, arguments.lightMap}) {
     if (!name.empty()) RequireWritable(name);
   }
   if (!arguments.image.empty() && !vtkRadiosityImageWriter::IsDisplayAvailable()) {
@@ -64,6 +65,18 @@ void ReadProbes(const SolveArguments& arguments, const RadiosityRun& run,
                  ReadIrradianceProbes(run.GetScene(), rays, run.Solution(), points, options));
 }
 
+/// An interrupt leaves it out.
+void DrawLightMap(const SolveArguments& arguments, const ProgressCallback& progress,
+                  ProgressDisplay* display, RadiosityRun* run) {
+  display->Begin("light map");
+  try {
+    run->DrawLightMap(progress);
+    WriteLightMap(run->Atlas(), *run->DrawnLightMap(), run->GetScene(), arguments.lightMap);
+  } catch (const Cancelled&) {
+    display->Say("Interrupted: no light map is written.");
+  }
+}
+
 void WriteReport(const std::string& fileName, const RadiosityRun& run) {
   std::ofstream file(fileName);
   file << RunReportJson(run, LAMBERT_VERSION) << '\n';
@@ -89,6 +102,15 @@ void PrintSummary(const SolveArguments& arguments, const RadiosityRun& run) {
   std::printf("stopped by %s after %zu iterations: %lld elements, %lld links, %lld rays\n",
               s.stoppedBy.c_str(), s.history.size(), static_cast<long long>(s.Elements()),
               static_cast<long long>(s.Links()), static_cast<long long>(s.rays));
+  if (run.DrawnLightMap()) {
+    const LightMap& map = *run.DrawnLightMap();
+    std::printf(
+        "%s: %zu charts on %d page(s) of %d texels, %g m each; seams %.2g %% rms, %.2g %% "
+        "at most, from %.2g and %.2g\n",
+        arguments.lightMap.c_str(), run.Atlas().set.charts.size(), run.Atlas().pages, map.pageSize,
+        run.Atlas().texelSize, 100 * map.after.rms, 100 * map.after.largest, 100 * map.before.rms,
+        100 * map.before.largest);
+  }
   if (run.Error() && run.Error()->points > 0) {
     const SolutionError& e = *run.Error();
     std::printf("measured error: rms %.4f [%.4f, %.4f], bounded %.4f, bias %+.4f at %lld points\n",
@@ -128,7 +150,9 @@ int Solve(const SolveArguments& arguments) {
   run.Load(progress);
   for (const std::string& warning : run.Warnings()) display.Say("warning: " + warning);
   run.RequireLight();
-  if (arguments.method.method == SolveMethod::Hierarchical) display.Begin("clustering");
+  if (arguments.method.method == SolveMethod::Hierarchical || !arguments.lightMap.empty()) {
+    display.Begin("clustering");
+  }
   run.Cluster(progress);
   display.Begin("solving");
   run.Solve(progress, IsInterrupted, [&](const IterationRecord& r) { display.EndIteration(r); });
@@ -141,6 +165,9 @@ int Solve(const SolveArguments& arguments) {
   });
   if (!arguments.probe.empty()) {
     Stage("probe", &display, &run, [&] { ReadProbes(arguments, run, probes); });
+  }
+  if (!arguments.lightMap.empty() && !IsInterrupted()) {
+    DrawLightMap(arguments, progress, &display, &run);
   }
   if (!arguments.image.empty()) {
     Stage("image", &display, &run, [&] { WriteImage(arguments, run); });

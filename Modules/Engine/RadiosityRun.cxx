@@ -111,7 +111,7 @@ void RadiosityRun::RequireLight() const {
 }
 
 void RadiosityRun::Cluster(const ProgressCallback& progress) {
-  if (this->options_.method.method != SolveMethod::Hierarchical) {
+  if (this->options_.method.method != SolveMethod::Hierarchical && !this->options_.atlas) {
     return;
   }
   Timer timer;
@@ -174,6 +174,21 @@ void RadiosityRun::SolveByMethod(const ProgressCallback& progress,
   this->solution_ = lambert::SolveByMethod(this->scene_, this->options_.method, &this->statistics_,
                                            progress, observer);
   this->AddStage("solve", timer.Seconds());
+}
+
+void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
+  if (!this->options_.atlas) {
+    throw lambert::Error("A light map needs the options of an atlas.");
+  }
+  Timer timer;
+  this->atlas_ = MakeRadiosityAtlas(
+      this->scene_.mesh, this->tree_, *this->options_.atlas,
+      [&](double fraction, const char* stage) { return Report(progress, 0.7 * fraction, stage); });
+  this->lightMap_ = MakeLightMap(this->scene_.mesh, this->atlas_, this->solution_,
+                                 [&](double fraction, const char* stage) {
+                                   return Report(progress, 0.7 + 0.3 * fraction, stage);
+                                 });
+  this->AddStage("light map", timer.Seconds());
 }
 
 void RadiosityRun::Verify(int points, const ProgressCallback& progress) {

@@ -2,6 +2,7 @@
 #ifndef RadiosityRun_h
 #define RadiosityRun_h
 
+#include "Atlas/Core/LightMap.h"
 #include "Clustering/Core/FaceClustering.h"
 #include "Common/Core/Progress.h"
 #include "Radiosity/Core/HierarchicalRadiosity.h"
@@ -28,6 +29,7 @@ struct RadiosityRunOptions {
   SolveMethodOptions method;
   HierarchicalRadiosityOptions solver;  ///< of the method Hierarchical
   std::optional<Spectrum> sky;          ///< radiance of a constant sky, W/(m2 sr)
+  std::optional<AtlasOptions> atlas;    ///< of a light map, where one is wanted
   double timeLimit = 0;        ///< seconds since the process began, writing included; 0: none
   double outputSeconds = 0.2;  ///< kept free for what is not proportional to the mesh (a picture)
 };
@@ -42,7 +44,8 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   void Load(const ProgressCallback& progress = {});
   /// Throws Error, before any work, for a scene without light.
   void RequireLight() const;
-  /// Builds the face-cluster tree, for the method Hierarchical alone. Throws Cancelled.
+  /// Builds the face-cluster tree, for the method Hierarchical and for light maps alone. Throws
+  /// Cancelled.
   void Cluster(const ProgressCallback& progress = {});
   /// Solves until the request is met, until another iteration and the output would not fit into the
   /// time limit, or until `interrupted` says so; all end at the border of an iteration. `observer`
@@ -50,6 +53,9 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   /// Error, Cancelled.
   void Solve(const ProgressCallback& progress = {}, const std::function<bool()>& interrupted = {},
              const std::function<void(const IterationRecord&)>& observer = {});
+  /// Lays the scene flat and draws the solution into its texels. Throws Error where the options
+  /// gave no atlas or charts do not fit, Cancelled.
+  void DrawLightMap(const ProgressCallback& progress = {});
   /// Measures how far the solution is from a path-traced reference at `points` points.
   void Verify(int points, const ProgressCallback& progress = {});
 
@@ -61,6 +67,8 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   const SolverStatistics& Statistics() const { return this->statistics_; }
   const RadiositySolution& Solution() const { return this->solution_; }
   const std::optional<SolutionError>& Error() const { return this->error_; }
+  const RadiosityAtlas& Atlas() const { return this->atlas_; }
+  const std::optional<LightMap>& DrawnLightMap() const { return this->lightMap_; }
   /// What the user should know, one sentence each, of every stage.
   std::vector<std::string> Warnings() const;
 
@@ -82,6 +90,8 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   SolverStatistics statistics_;
   RadiositySolution solution_;
   std::optional<SolutionError> error_;
+  RadiosityAtlas atlas_;
+  std::optional<LightMap> lightMap_;
   std::vector<std::pair<std::string, double>> stages_;
 };
 }  // namespace lambert

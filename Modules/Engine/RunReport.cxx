@@ -186,6 +186,18 @@ std::string RunReportJson(const RadiosityRun& run, const std::string& version) {
   report["history"] = HistoryJson(s);
 
   // What came out.
+  if (run.DrawnLightMap()) {
+    const LightMap& map = *run.DrawnLightMap();
+    const auto seams = [](const SeamDifference& d) {
+      return Json{{"rms", d.rms}, {"largest", d.largest}};
+    };
+    report["light_map"] = {
+        {"charts", run.Atlas().set.charts.size()}, {"pages", run.Atlas().pages},
+        {"page_size_texels", map.pageSize},        {"texel_size_m", run.Atlas().texelSize},
+        {"utilisation", run.Atlas().utilisation},  {"covered_texels", map.coveredTexels},
+        {"seam_points", map.seamPoints},           {"seams_before", seams(map.before)},
+        {"seams_after", seams(map.after)}};
+  }
   report["output"] = {{"triangles", run.Solution().mesh.FaceCount()},
                       {"points", run.Solution().mesh.PointCount()}};
   if (run.Error()) {

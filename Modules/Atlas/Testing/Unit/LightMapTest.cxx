@@ -140,7 +140,8 @@ TEST(LightMap, NothingAndWhatDoesNotBelongTogether) {
   EXPECT_THROW(MakeLightMap(plane.mesh, other.atlas, other.solution), Error);
   Lit dark(FlatGrid(2), Pages(64), Slope);
   dark.solution = {};
-  for (const Spectrum& texel : dark.Map().pages[0]) EXPECT_EQ(texel.r, 0);
+  const LightMap map = dark.Map();
+  for (const Spectrum& texel : map.pages[0]) EXPECT_EQ(texel.r, 0);
   const auto cancel = [](double, const char*) { return false; };
   EXPECT_THROW(MakeLightMap(other.mesh, other.atlas, other.solution, cancel), Cancelled);
 }

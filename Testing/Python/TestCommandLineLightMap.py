@@ -1,0 +1,73 @@
+"""`lambert solve --lightmap`: the light in the texels is the light that probes read; seams are closed and told."""
+import json
+
+import numpy as np
+from CommandLine import CORNELL_BOX, DATA, run, temporary
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkHDRReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
+SIZE = 256
+solved, mapped, report = temporary("map-solved.vtp"), temporary("map.vtp"), temporary("map.json")
+probes, readings = temporary("map-probes.csv"), temporary("map-readings.csv")
+common = (CORNELL_BOX, "-o", solved, "--error", "0.1", "--lightmap", mapped, "--page-size", str(SIZE))
+done = run("solve", *common, "--report", report)
+assert done.returncode == 0, done.stderr
+told = json.load(open(report))["light_map"]
+assert told["pages"] == 1 and told["page_size_texels"] == SIZE and told["covered_texels"] > SIZE * SIZE / 4
+assert "light map" in json.load(open(report))["seconds"]
+
+
+def page_of(name):
+    """Irradiance by row from below and column."""
+    reader = vtkHDRReader()
+    reader.SetFileName(name)
+    reader.Update()
+    image = reader.GetOutput()
+    width, height, _ = image.GetDimensions()
+    return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, 3)
+
+
+def mesh_of(name):
+    reader = vtkXMLPolyDataReader()
+    reader.SetFileName(name)
+    reader.Update()
+    return reader.GetOutput()
+
+
+# Every texel is lit by something; a reader of floats finds the light that a probe reads at the middle of each triangle.
+page, mesh = page_of(mapped.replace(".vtp", "-0.hdr")), mesh_of(mapped)
+assert page.shape == (SIZE, SIZE, 3) and np.isfinite(page).all() and page.min() >= 0
+corners = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+points = vtk_to_numpy(mesh.GetPoints().GetData())[corners]
+uv = vtk_to_numpy(mesh.GetPointData().GetArray("LightMapTCoords"))[corners].mean(axis=1)
+normals = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
+with open(probes, "w") as file:
+    file.write("x,y,z,nx,ny,nz\n")
+    for place, normal in zip(points.mean(axis=1), normals):
+        file.write(",".join(f"{value:.9g}" for value in (*place, *normal)) + "\n")
+again = run("solve", *common, "--probe", probes, "--probe-output", readings)
+assert again.returncode == 0, again.stderr
+rows = [line.split(",") for line in open(readings).read().splitlines()[1:]]
+probed = np.array([[float(value) for value in row[6:9]] for row in rows])
+column, row = (uv * SIZE).astype(int).T
+found = page[row, column]
+# A texel away light differs a little; sides that no light reaches have no place.
+lit = np.array([r[9] == "surface" for r in rows]) & (probed.mean(axis=1) > 0.05 * probed.mean())
+assert lit.sum() > 20
+assert np.median(np.abs(found[lit] - probed[lit]).mean(axis=1) / probed[lit].mean(axis=1)) < 0.05
+
+# A smooth closed surface has seams; closing them takes most of the difference.
+sphere = run("solve", f"{DATA}/SphereByLamp/SphereByLamp.obj", "-o", solved, "--error", "0.2", "--lightmap", mapped,
+             "--page-size", "512", "--report", report)
+assert sphere.returncode == 0, sphere.stderr
+told = json.load(open(report))["light_map"]
+assert told["seam_points"] > 100
+assert told["seams_after"]["rms"] < 0.3 * told["seams_before"]["rms"]
+assert told["seams_after"]["largest"] <= told["seams_before"]["largest"]
+
+# Options of the atlas ask for a light map; names are checked first.
+for wrong, code in ((["--page-size", "64"], 2), (["--lightmap", temporary("map.obj")], 2),
+                    (["--lightmap", "/nowhere/map.vtp"], 1), (["--lightmap", solved], 2)):
+    failed = run("solve", CORNELL_BOX, "-o", solved, *wrong)
+    assert failed.returncode == code and failed.stderr.strip(), (wrong, failed.returncode, failed.stderr)
