@@ -79,9 +79,8 @@ constexpr int kVerificationSamples = 256;
 /// scatter may leave, of the wanted error.
 constexpr double kFirstRays = 0.4, kLeafRays = 0.8, kNoiseShare = 0.7;
 constexpr int kLeastFirstRays = 2, kLeastLeafRays = 4, kMostLeafRays = 64;
-/// No point casts more than so many times the rays of the first round, half as many where that has
-/// more than few already: light that scatters still is found by rays that few points need.
-constexpr int kMostOfFirst = 32, kFewRays = 4;
+/// No point casts more than so many times the rays of the first round.
+constexpr int kMostOfFirst = 32;
 
 /// Blotches are seen where the rest of a coarse solution is not: scatter is kept low there too.
 constexpr double kMostNoise = 0.08;
@@ -95,8 +94,7 @@ GatheredSolutionOptions GatherFor(double error) {
   points.noise = NoiseFor(error);
   points.firstRays = kLeastFirstRays;
   while (points.firstRays < kFirstRays / error) points.firstRays *= 2;
-  points.mostRays =
-      kMostOfFirst * std::min(points.firstRays, std::max(kFewRays, points.firstRays / 2));
+  points.mostRays = kMostOfFirst * points.firstRays;
   points.directRays = std::min(64, std::max(8, int(0.8 / error)));
   points.penumbraRays = std::min(256, std::max(8, int(1.2 / error)));
   return options;
