@@ -259,28 +259,35 @@ Spectrum Sum(const std::vector<Spectrum>& texels, const Footprint& footprint) {
   return sum;
 }
 
+double Norm(const Spectrum& s) { return std::sqrt(SquaredNorm(s) / 3); }
+
 SeamDifference MeasureSeams(const std::vector<SeamPoint>& seams, const LightMap& map, double mean) {
   SeamDifference difference;
   if (seams.empty() || !(mean > 0)) return difference;
   for (const SeamPoint& seam : seams) {
     const Spectrum a = Sum(map.pages[size_t(seam.pages[0])], seam.footprints[0]);
     const Spectrum b = Sum(map.pages[size_t(seam.pages[1])], seam.footprints[1]);
-    const double square = SquaredNorm(a - b) / 3 / (mean * mean);
-    difference.rms += square / double(seams.size());
-    difference.largest = std::max(difference.largest, std::sqrt(square));
+    const double part = Norm(a - b) / std::max(mean, Norm((a + b) * 0.5f));
+    difference.rms += part * part / double(seams.size());
+    difference.largest = std::max(difference.largest, part);
   }
   difference.rms = std::sqrt(difference.rms);
   return difference;
 }
 
-/// Moves the texels of seams by as little as may be until lookups on both sides agree.
-void CloseSeams(const std::vector<SeamPoint>& seams, LightMap* map) {
+/// Moves the texels of seams by as little as may be until lookups on both sides agree; all in parts
+/// of the light there or of `mean`, whichever is more, or lamps would have all the say.
+void CloseSeams(const std::vector<SeamPoint>& seams, double mean, LightMap* map) {
+  if (seams.empty() || !(mean > 0)) return;
   // The texels that are looked up, as unknowns.
   std::unordered_map<uint64_t, int> unknownOfTexel;
   std::vector<Spectrum*> texels;
   const size_t pageTexels = size_t(map->pageSize) * size_t(map->pageSize);
   std::vector<Eigen::Triplet<double>> entries;
   for (size_t s = 0; s < seams.size(); ++s) {
+    const Spectrum light = Sum(map->pages[size_t(seams[s].pages[0])], seams[s].footprints[0]) +
+                           Sum(map->pages[size_t(seams[s].pages[1])], seams[s].footprints[1]);
+    const double weight = 1 / std::max(mean, Norm(light * 0.5f));
     for (size_t side = 0; side < 2; ++side) {
       const Footprint& footprint = seams[s].footprints[side];
       for (size_t i = 0; i < 4; ++i) {
@@ -289,31 +296,35 @@ void CloseSeams(const std::vector<SeamPoint>& seams, LightMap* map) {
             unknownOfTexel.try_emplace(page * pageTexels + footprint.texels[i], int(texels.size()));
         if (isNew) texels.push_back(&map->pages[page][footprint.texels[i]]);
         entries.emplace_back(int(s), place->second,
-                             side == 0 ? footprint.parts[i] : -footprint.parts[i]);
+                             weight * (side == 0 ? footprint.parts[i] : -footprint.parts[i]));
       }
     }
   }
-  if (texels.empty()) return;
 
   // Least squares: the differences, and how far texels move.
-  Eigen::SparseMatrix<double> difference(int(seams.size()), int(texels.size()));
+  const int count = int(texels.size());
+  Eigen::SparseMatrix<double> difference(int(seams.size()), count), stay(count, count);
   difference.setFromTriplets(entries.begin(), entries.end());
-  Eigen::SparseMatrix<double> stay(int(texels.size()), int(texels.size()));
-  stay.setIdentity();
+  Eigen::VectorXd stays(count);
+  entries.clear();
+  for (int i = 0; i < count; ++i) {
+    const double light = std::max(mean, Norm(*texels[size_t(i)]));
+    stays[i] = kStay / (light * light);
+    entries.emplace_back(i, i, stays[i]);
+  }
+  stay.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SparseMatrix<double> matrix =
-      Eigen::SparseMatrix<double>(difference.transpose()) * difference + kStay * stay;
+      Eigen::SparseMatrix<double>(difference.transpose()) * difference + stay;
   Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver;
   solver.setTolerance(kSolverTolerance);
   solver.setMaxIterations(kMostSolverSteps);
   solver.compute(matrix);
   for (int band = 0; band < 3; ++band) {
-    Eigen::VectorXd was(int(texels.size()));
-    for (size_t i = 0; i < texels.size(); ++i) was[int(i)] = double((*texels[i])[band]);
-    const Eigen::VectorXd is = solver.solveWithGuess(kStay * was, was);
+    Eigen::VectorXd was(count);
+    for (int i = 0; i < count; ++i) was[i] = double((*texels[size_t(i)])[band]);
+    const Eigen::VectorXd is = solver.solveWithGuess(stays.cwiseProduct(was), was);
     if (!is.allFinite()) continue;
-    for (size_t i = 0; i < texels.size(); ++i) {
-      (*texels[i])[band] = float(std::max(0., is[int(i)]));
-    }
+    for (int i = 0; i < count; ++i) (*texels[size_t(i)])[band] = float(std::max(0., is[i]));
   }
 }
 
@@ -358,7 +369,7 @@ LightMap MakeLightMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
   const std::vector<SeamPoint> seams = FindSeams(mesh, atlas, chartOfFace);
   map.seamPoints = int64_t(seams.size());
   map.before = MeasureSeams(seams, map, mean);
-  CloseSeams(seams, &map);
+  CloseSeams(seams, mean, &map);
   map.after = MeasureSeams(seams, map, mean);
   if (!Report(progress, 0.8, "filling between charts")) throw Cancelled();
   for (size_t page = 0; page < map.pages.size(); ++page) {

@@ -11,7 +11,8 @@
 namespace lambert {
 
 /// By how much lookups on the two sides of a cut edge differ, where light does not: at points of
-/// edges whose faces share their points, parts of the mean irradiance.
+/// edges whose faces share their points, parts of the light there or of the mean irradiance,
+/// whichever is more.
 struct SeamDifference {
   double rms = 0, largest = 0;
 };
