@@ -2,6 +2,8 @@
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
 #include <unordered_map>
 
 #include "Atlas/Core/ChartMesh.h"

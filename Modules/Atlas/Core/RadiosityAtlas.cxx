@@ -198,12 +198,11 @@ double FillPages(const Layout& layout, const AtlasOptions& options, Packing* pac
     } else {
       tooDense = std::min(tooDense, density);
     }
-    density = std::min(layout.MostDensity(), kSafety * density * std::sqrt(options.pages / fill));
-    if (density <= best || density >= tooDense) {
-      if (best > 0 && best > kLeastFill * tooDense) break;
-      density = tooDense < std::numeric_limits<double>::max() ? 0.5 * (best + tooDense) : density;
-      if (density <= best) break;
-    }
+    if (best > kLeastFill * tooDense) break;
+    // As this attempt was full, or else between what fitted and what did not.
+    const double next = kSafety * density * std::sqrt(options.pages / fill);
+    const bool isBetween = next > best && next < tooDense;
+    density = std::min(layout.MostDensity(), isBetween ? next : 0.5 * (best + tooDense));
   }
   return best;
 }
