@@ -89,19 +89,20 @@ int Atlas(const AtlasArguments& arguments) {
   // The scene in clusters, those in charts, and charts on pages.
   RadiosityRunOptions options;
   arguments.scene.Apply(&options);
+  options.atlas = arguments.atlas;
   RadiosityRun run(options);
   display.Begin("reading");
   run.Load(progress);
   display.Begin("clustering");
-  Scene scene = run.GetScene();
-  const ClusterTree tree = ClusterFaces(&scene.mesh, scene.parts, {}, nullptr, progress);
+  run.Cluster(progress);
   display.Begin("atlas");
-  const RadiosityAtlas atlas = MakeRadiosityAtlas(scene.mesh, tree, arguments.atlas, progress);
+  run.LayFlat(progress);
+  const RadiosityAtlas& atlas = run.Atlas();
 
   // What is asked for.
   display.Begin("write");
   vtkNew<vtkPolyData> mesh;
-  PolyDataFromAtlas(atlas, std::move(scene), mesh);
+  PolyDataFromAtlas(atlas, run.GetScene(), mesh);
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(mesh);
   writer->SetFileName(arguments.output.c_str());

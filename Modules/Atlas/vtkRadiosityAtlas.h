@@ -54,8 +54,10 @@ class LAMBERTATLAS_EXPORT vtkRadiosityAtlas : public vtkPolyDataAlgorithm {
   vtkIdType GetNumberOfCharts() { return this->NumberOfCharts; }
   int GetNumberOfPages() { return this->NumberOfPages; }
   double GetDeliveredTexelSize() { return this->DeliveredTexelSize; }  ///< m
-  double GetUtilisation() { return this->Utilisation; }  ///< area of charts over that of pages
-                                                         ///@}
+  double GetUtilisation() {
+    return this->Utilisation;
+  }  ///< area of charts over that of pages
+     ///@}
 
  protected:
   vtkRadiosityAtlas();

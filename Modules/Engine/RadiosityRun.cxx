@@ -176,14 +176,20 @@ void RadiosityRun::SolveByMethod(const ProgressCallback& progress,
   this->AddStage("solve", timer.Seconds());
 }
 
-void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
+void RadiosityRun::LayFlat(const ProgressCallback& progress) {
   if (!this->options_.atlas) {
-    throw lambert::Error("A light map needs the options of an atlas.");
+    throw lambert::Error("A scene is laid flat by the options of an atlas, and there are none.");
   }
   Timer timer;
-  this->atlas_ = MakeRadiosityAtlas(
-      this->scene_.mesh, this->tree_, *this->options_.atlas,
+  this->atlas_ =
+      MakeRadiosityAtlas(this->scene_.mesh, this->tree_, *this->options_.atlas, progress);
+  this->AddStage("atlas", timer.Seconds());
+}
+
+void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
+  this->LayFlat(
       [&](double fraction, const char* stage) { return Report(progress, 0.7 * fraction, stage); });
+  Timer timer;
   this->lightMap_ = MakeLightMap(this->scene_.mesh, this->atlas_, this->solution_,
                                  [&](double fraction, const char* stage) {
                                    return Report(progress, 0.7 + 0.3 * fraction, stage);

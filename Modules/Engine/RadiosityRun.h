@@ -53,8 +53,10 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   /// Error, Cancelled.
   void Solve(const ProgressCallback& progress = {}, const std::function<bool()>& interrupted = {},
              const std::function<void(const IterationRecord&)>& observer = {});
-  /// Lays the scene flat and draws the solution into its texels. Throws Error where the options
-  /// gave no atlas or charts do not fit, Cancelled.
+  /// Lays the clustered scene flat. Throws Error where the options gave no atlas or charts do not
+  /// fit, Cancelled.
+  void LayFlat(const ProgressCallback& progress = {});
+  /// Lays the scene flat and draws the solution into its texels. Throws as LayFlat does.
   void DrawLightMap(const ProgressCallback& progress = {});
   /// Measures how far the solution is from a path-traced reference at `points` points.
   void Verify(int points, const ProgressCallback& progress = {});

@@ -1,55 +1,17 @@
 #include "Atlas/Core/ChartMesh.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
+#include "Common/Core/DisjointSets.h"
 #include "Common/Core/Error.h"
+#include "Scene/Core/MeshTopology.h"
 
 namespace lambert {
 
 namespace {
 
 int32_t NextCorner(int32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-
-/// The first point with the same position, by point.
-std::vector<int32_t> JoinPoints(const std::vector<Vec3f>& positions) {
-  std::vector<int32_t> order(positions.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](int32_t point) {
-    const Vec3f& p = positions[size_t(point)];
-    return std::make_tuple(p.x, p.y, p.z, point);
-  };
-  std::sort(order.begin(), order.end(), [&](int32_t a, int32_t b) { return key(a) < key(b); });
-  std::vector<int32_t> joined(positions.size());
-  for (size_t i = 0; i < order.size(); ++i) {
-    const bool isSame = i > 0 && positions[size_t(order[i])] == positions[size_t(order[i - 1])];
-    joined[size_t(order[i])] = isSame ? joined[size_t(order[i - 1])] : order[i];
-  }
-  return joined;
-}
-
-/// Sets that are joined one by one; a set is known by its smallest member.
-class DisjointSets {
- public:
-  explicit DisjointSets(size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int32_t Find(int32_t i) {
-    while (parent_[size_t(i)] != i) {
-      parent_[size_t(i)] = parent_[size_t(parent_[size_t(i)])];
-      i = parent_[size_t(i)];
-    }
-    return i;
-  }
-  void Join(int32_t a, int32_t b) {
-    a = this->Find(a), b = this->Find(b);
-    parent_[size_t(std::max(a, b))] = std::min(a, b);
-  }
-
- private:
-  std::vector<int32_t> parent_;
-};
 
 }  // namespace
 
@@ -65,7 +27,7 @@ std::vector<int32_t> FindNeighbours(const TriangleMesh& mesh) {
       return surface == other.surface && low == other.low && high == other.high;
     }
   };
-  const std::vector<int32_t> joined = JoinPoints(mesh.positions);
+  const std::vector<int32_t> joined = PositionIds(mesh);
   std::vector<Edge> edges;
   edges.reserve(3 * mesh.triangles.size());
   for (size_t face = 0; face < mesh.triangles.size(); ++face) {

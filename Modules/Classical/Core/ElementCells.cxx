@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "Common/Core/DisjointSets.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 
@@ -33,25 +34,6 @@ uint64_t GroupKey(int32_t part, const Vec3f& center, const Vec3f& normal, double
   }
   return key;
 }
-
-/// Which of `count` things belong together.
-class UnionFind {
- public:
-  explicit UnionFind(int32_t count) : parent_(size_t(count)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int32_t Find(int32_t i) {
-    while (parent_[size_t(i)] != i) i = parent_[size_t(i)] = parent_[size_t(parent_[size_t(i)])];
-    return i;
-  }
-  void Join(int32_t a, int32_t b) {
-    a = Find(a), b = Find(b);
-    parent_[size_t(std::max(a, b))] = std::min(a, b);
-  }
-
- private:
-  std::vector<int32_t> parent_;
-};
 
 }  // namespace
 
@@ -186,7 +168,7 @@ void ElementCells::GroupFragments(double elementSize, const std::vector<float>& 
       }
     }
     std::sort(points.begin(), points.end());
-    UnionFind joined(int32_t(end - begin));
+    DisjointSets joined(end - begin);
     for (size_t i = 1; i < points.size(); ++i) {
       if (points[i].first == points[i - 1].first)
         joined.Join(points[i].second, points[i - 1].second);

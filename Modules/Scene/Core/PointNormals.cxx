@@ -1,7 +1,6 @@
 #include "Scene/Core/PointNormals.h"
 
-#include <numeric>
-
+#include "Common/Core/DisjointSets.h"
 #include "Common/Core/Parallel.h"
 #include "Scene/Core/FirstEqual.h"
 
@@ -24,36 +23,12 @@ double CornerAngle(const TriangleMesh& mesh, int64_t face, int corner) {
   return std::atan2(Length(Cross(u, v)), Dot(u, v));
 }
 
-/// Corners that share a normal, as a disjoint-set forest; the root is the lowest corner of its
-/// group.
-class CornerGroups {
- public:
-  explicit CornerGroups(size_t corners) : parent_(corners) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int32_t Root(int32_t corner) {
-    while (parent_[size_t(corner)] != corner) {
-      int32_t& parent = parent_[size_t(corner)];
-      corner = parent = parent_[size_t(parent)];
-    }
-    return corner;
-  }
-  void Unite(int32_t a, int32_t b) {
-    a = Root(a);
-    b = Root(b);
-    parent_[size_t(std::max(a, b))] = std::min(a, b);
-  }
-
- private:
-  std::vector<int32_t> parent_;
-};
-
 /// Joins the corners at both ends of every edge that is bent by at most the feature angle.
-CornerGroups GroupCorners(const TriangleMesh& mesh, const MeshTopology& topology,
+DisjointSets GroupCorners(const TriangleMesh& mesh, const MeshTopology& topology,
                           const std::vector<Vec3d>& faceNormals, double featureAngle) {
   // A little slack, so that an edge of exactly the feature angle counts as smooth.
   const double cosine = std::cos(featureAngle * kPi / 180) - 1e-9;
-  CornerGroups groups(3 * mesh.triangles.size());
+  DisjointSets groups(3 * mesh.triangles.size());
   for (int32_t edge = 0; edge < int32_t(topology.neighbor.size()); ++edge) {
     const int32_t across = topology.neighbor[size_t(edge)];
     if (across < edge) continue;
@@ -61,8 +36,8 @@ CornerGroups GroupCorners(const TriangleMesh& mesh, const MeshTopology& topology
     if (topology.against[face] != topology.against[other]) continue;
     if (Dot(faceNormals[face], faceNormals[other]) < cosine) continue;
     const auto end = [](int32_t e) { return e % 3 == 2 ? e - 2 : e + 1; };
-    groups.Unite(edge, end(across));
-    groups.Unite(end(edge), across);
+    groups.Join(edge, end(across));
+    groups.Join(end(edge), across);
   }
   return groups;
 }
@@ -127,10 +102,10 @@ PointNormalCounts CompletePointNormals(double featureAngle, TriangleMesh* mesh,
   std::vector<Vec3d> faceNormals(mesh->triangles.size());
   ParallelForEach(mesh->FaceCount(), kGrain,
                   [&](int64_t face) { faceNormals[size_t(face)] = UnitNormal(*mesh, face); });
-  CornerGroups groups = GroupCorners(*mesh, *topology, faceNormals, featureAngle);
+  DisjointSets groups = GroupCorners(*mesh, *topology, faceNormals, featureAngle);
   std::vector<int32_t> root(3 * mesh->triangles.size()), point(root.size());
   for (size_t corner = 0; corner < root.size(); ++corner) {
-    root[corner] = groups.Root(int32_t(corner));
+    root[corner] = groups.Find(int32_t(corner));
     point[corner] = mesh->triangles[corner / 3][corner % 3];
   }
   const std::vector<Vec3d> groupNormals = GroupNormals(*mesh, faceNormals, root);

@@ -2,19 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "Clustering/Testing/Unit/ClusteringMeshes.h"
+#include "Atlas/Testing/Unit/AtlasMeshes.h"
 #include "Common/Core/Error.h"
 
 namespace lambert {
 namespace {
 
-ChartMesh Whole(TriangleMesh mesh) {
-  mesh.surfaceId.assign(mesh.triangles.size(), 0);
-  return MakeChartMesh(mesh, FindNeighbours(mesh), 0, int32_t(mesh.FaceCount()));
-}
-
 TEST(ChartMesh, AGridIsADisc) {
-  const ChartMesh chart = Whole(FlatGrid(7));
+  const ChartMesh chart = WholeChart(FlatGrid(7));
   EXPECT_TRUE(chart.IsFlat());
   EXPECT_EQ(chart.positions.size(), 64u);
   ASSERT_EQ(chart.borders.size(), 1u);
@@ -22,7 +17,7 @@ TEST(ChartMesh, AGridIsADisc) {
 }
 
 TEST(ChartMesh, ClosedSurfacesAndHandlesAreNotFlat) {
-  const ChartMesh sphere = Whole(Sphere(10)), torus = Whole(Torus(20, 10));
+  const ChartMesh sphere = WholeChart(Sphere(10)), torus = WholeChart(Torus(20, 10));
   EXPECT_TRUE(sphere.isConnected && sphere.borders.empty() && sphere.genus == 0);
   EXPECT_FALSE(sphere.IsFlat());
   EXPECT_TRUE(torus.isConnected && torus.borders.empty());
@@ -38,26 +33,27 @@ TEST(ChartMesh, ClosedSurfacesAndHandlesAreNotFlat) {
     copy.Complete();
     return copy;
   }();
-  const ChartMesh cut = Whole(open);
+  const ChartMesh cut = WholeChart(open);
   EXPECT_EQ(cut.borders.size(), 1u);
   EXPECT_EQ(cut.genus, 1);
   EXPECT_FALSE(cut.IsFlat());
 }
 
 TEST(ChartMesh, ATubeHasTwoBorders) {
-  const ChartMesh tube = Whole(GridMesh(12, 4, [](double u, double v) { return OnTurn(u, 1, v); }));
+  const ChartMesh tube =
+      WholeChart(GridMesh(12, 4, [](double u, double v) { return OnTurn(u, 1, v); }));
   EXPECT_EQ(tube.borders.size(), 2u);
   EXPECT_TRUE(tube.IsFlat());
 }
 
 TEST(ChartMesh, AMoebiusBandIsCutWhereFrontMeetsBack) {
-  const ChartMesh band = Whole(MoebiusBand(24, 3));
+  const ChartMesh band = WholeChart(MoebiusBand(24, 3));
   EXPECT_TRUE(band.IsFlat());
   EXPECT_EQ(band.borders.size(), 1u);
 }
 
 TEST(ChartMesh, FacesThatMeetInAPointOrAtACrowdedEdgeAreApart) {
-  const ChartMesh fan = Whole(NonManifoldFan(5));
+  const ChartMesh fan = WholeChart(NonManifoldFan(5));
   EXPECT_FALSE(fan.isConnected);
   EXPECT_EQ(fan.borders.size(), 5u);
   EXPECT_EQ(fan.positions.size(), 15u);
@@ -66,7 +62,7 @@ TEST(ChartMesh, FacesThatMeetInAPointOrAtACrowdedEdgeAreApart) {
   bow.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};
   bow.triangles = {{0, 1, 2}, {0, 3, 4}};
   bow.Complete();
-  const ChartMesh two = Whole(bow);
+  const ChartMesh two = WholeChart(bow);
   EXPECT_FALSE(two.isConnected);
   EXPECT_EQ(two.positions.size(), 6u);
 }

@@ -2,20 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "Clustering/Testing/Unit/ClusteringMeshes.h"
+#include "Atlas/Testing/Unit/AtlasMeshes.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 
 namespace lambert {
 namespace {
-
-struct Clustered {
-  TriangleMesh mesh;
-  ClusterTree tree;
-  explicit Clustered(TriangleMesh mesh_) : mesh(std::move(mesh_)) {
-    tree = ClusterFaces(&mesh, {});
-  }
-};
 
 double Cross2(const Vec2f& a, const Vec2f& b, const Vec2f& c) {
   const Vec2d u(b - a), v(c - a);

@@ -5,20 +5,12 @@
 #include <functional>
 #include <map>
 
-#include "Clustering/Testing/Unit/ClusteringMeshes.h"
+#include "Atlas/Testing/Unit/AtlasMeshes.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 
 namespace lambert {
 namespace {
-
-struct Clustered {
-  TriangleMesh mesh;
-  ClusterTree tree;
-  explicit Clustered(TriangleMesh mesh_) : mesh(std::move(mesh_)) {
-    tree = ClusterFaces(&mesh, {});
-  }
-};
 
 TriangleMesh Mixed() {
   TriangleMesh mesh = Sphere(16);
