@@ -20,6 +20,8 @@ constexpr double kMeasuringShare = 0.1;
 /// figure of two threads.
 constexpr double kUsualSecondsPerLink = 4e-6;
 constexpr double kLinksToMeasure = 2e4;
+/// Verification takes up to so many times its usual paths where those do not decide.
+constexpr int kVerificationGrowth = 4;
 
 /// Decides after every iteration whether another one and the output fit into the time limit.
 /// Reconstruction takes a time for the mesh and a time for every link; both are measured.
@@ -201,6 +203,9 @@ void RadiosityRun::Verify(int points, const ProgressCallback& progress) {
   Timer timer;
   SolutionErrorOptions options;
   options.points = points;
+  options.growth = kVerificationGrowth;
+  const bool isRequested = this->options_.method.method == SolveMethod::Hierarchical;
+  options.enough = isRequested ? this->options_.solver.error : 0;
   this->error_ = MeasureSolutionError(this->scene_, this->solution_, options, progress);
   this->AddStage("verify", timer.Seconds());
 }

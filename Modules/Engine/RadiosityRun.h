@@ -58,7 +58,8 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   void LayFlat(const ProgressCallback& progress = {});
   /// Lays the scene flat and draws the solution into its texels. Throws as LayFlat does.
   void DrawLightMap(const ProgressCallback& progress = {});
-  /// Measures how far the solution is from a path-traced reference at `points` points.
+  /// Measures how far the solution is from a path-traced reference at `points` points; with up to
+  /// four times the paths where those leave open whether the request is met.
   void Verify(int points, const ProgressCallback& progress = {});
 
   const RadiosityRunOptions& Options() const { return this->options_; }

@@ -74,6 +74,8 @@ constexpr int64_t kTrialPoints = 1024;
 constexpr double kTrialReserve = 1.2;
 /// Paths a point for verification.
 constexpr int kVerificationSamples = 256;
+/// Up to so many times as many paths where those leave it open whether the request is met.
+constexpr int kVerificationGrowth = 16;
 
 /// Rays of every point and of a leaf of mean area over the hemisphere, times the error; what their
 /// scatter may leave, of the wanted error.
@@ -146,6 +148,8 @@ class Verification {
     verification.points = options_.verificationPoints;
     verification.samples = kVerificationSamples;
     verification.seed = HashBits(0x76657269u, uint64_t(++attempts_));
+    verification.growth = options_.timeLimit > 0 ? 1 : kVerificationGrowth;
+    verification.enough = kVerifiedBelow * options_.error;
     error_ = MeasureSolutionError(scene_, solution, verification).Counting();
     const bool isBetter = attempts_ == 1 || error_ <= kLeastGain * best_;
     if (isBetter) best_ = error_;

@@ -209,13 +209,18 @@ SolutionError SummarizeError(const std::vector<Spectrum>& delivered,
   return error;
 }
 
-SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& solution,
-                                   const SolutionErrorOptions& options,
-                                   const ProgressCallback& progress) {
-  if (options.points < 1) throw Error("An error needs at least one point to be measured at.");
-  const SolutionLookup lookup(solution, scene.mesh.FaceCount());
-  const PathTracedIrradiance tracer(scene);
+/// What a solution delivers at receiving points, and the truth there.
+struct ErrorSample {
+  std::vector<Spectrum> delivered;
+  std::vector<IrradianceEstimate> truth;
+  int64_t drawn = 0, missed = 0;
+};
 
+/// Draws places and adds them to the sample.
+static void DrawPlaces(const Scene& scene, const RadiositySolution& solution,
+                       const SolutionLookup& lookup, const PathTracedIrradiance& tracer,
+                       const SolutionErrorOptions& options, ErrorSample* sample,
+                       const ProgressCallback& progress) {
   // Places that may receive light, and the truth there.
   const std::vector<Place> all = StratifiedPlaces(scene.mesh, options);
   RequireSameScene(all, lookup, scene, solution.mesh);
@@ -226,24 +231,54 @@ SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& 
   const auto reference = tracer.Estimate(Receivers(places), trace, progress);
 
   // What the solution delivers there; a side that it leaves out counts where light is sure.
-  std::vector<Spectrum> delivered;
-  std::vector<IrradianceEstimate> truth;
-  int64_t missed = 0;
+  sample->drawn += int64_t(all.size());
   for (size_t i = 0; i < places.size(); ++i) {
     const Place& place = places[i];
     if (!lookup.Models(place.face, place.side)) {
       const double noise = SquaredNorm(reference[i].standardError);
       if (SquaredNorm(reference[i].irradiance) <= 4 * noise) continue;
-      ++missed;
+      ++sample->missed;
     }
-    delivered.push_back(
+    sample->delivered.push_back(
         lookup.Irradiance(lookup.Find(place.face, place.side, place.receiver.position)));
-    truth.push_back(reference[i]);
+    sample->truth.push_back(reference[i]);
   }
-  SolutionError error = SummarizeError(delivered, truth, options.seed);
-  error.darkPoints = int64_t(all.size() - delivered.size());
-  error.missedPoints = missed;
-  return error;
+}
+
+SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& solution,
+                                   const SolutionErrorOptions& options,
+                                   const ProgressCallback& progress) {
+  if (options.points < 1) throw Error("An error needs at least one point to be measured at.");
+  const SolutionLookup lookup(solution, scene.mesh.FaceCount());
+  const PathTracedIrradiance tracer(scene);
+  const int64_t mostPaths = int64_t(options.growth) * options.points * options.samples;
+  SolutionErrorOptions draw = options;
+  ErrorSample sample;
+  double done = 0;
+  for (uint64_t batch = 1;; ++batch) {
+    const ProgressCallback half = [&](double fraction, const char* stage) {
+      return Report(progress, done + (1 - done) / 2 * fraction, stage);
+    };
+    DrawPlaces(scene, solution, lookup, tracer, draw, &sample, half);
+    done += (1 - done) / 2;
+    SolutionError error = SummarizeError(sample.delivered, sample.truth, options.seed);
+    error.darkPoints = sample.drawn - error.points;
+    error.missedPoints = sample.missed;
+    if (options.enough > 0 && error.Counting() <= options.enough) return error;
+
+    // More paths a point where their noise is more than the error, else as many points again where
+    // few of them decide.
+    draw.seed = HashBits(options.seed, batch);
+    if (error.noise > error.Counting() && 4 * draw.samples * sample.drawn <= mostPaths) {
+      draw.samples *= 4;
+      draw.points = int(sample.drawn);
+      sample = {};
+    } else if (!error.IsRmsSure() && 2 * draw.samples * sample.drawn <= mostPaths) {
+      draw.points = int(sample.drawn);
+    } else {
+      return error;
+    }
+  }
 }
 
 }  // namespace lambert

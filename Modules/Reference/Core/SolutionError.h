@@ -17,6 +17,10 @@ struct SolutionErrorOptions {
                        ///< does not emit
   int samples = 1024;  ///< paths a point, [2, inf)
   uint64_t seed = 1;
+  /// Up to so many times the paths, [1, inf), where those do not decide: more a point where the
+  /// noise of the reference hides the error, else more points where few of them decide the rms.
+  int growth = 1;
+  double enough = 0;  ///< no more of them where the error that counts is at most this, [0, inf)
 };
 
 /// Errors are fractions; confidence intervals are 95 % bootstrap.
@@ -34,9 +38,10 @@ struct SolutionError {
       0;             ///< of the receiving ones: lit in the reference, not modelled by the solution
   double noise = 0;  ///< relative RMS noise of the reference, what was subtracted from `rms`
 
-  /// The error that counts: `rms`, or `bounded` where a few points decide the first, so that its
-  /// interval is wider than 30 % of it.
-  double Counting() const { return rmsHigh - rmsLow > 0.3 * rms ? bounded : rms; }
+  /// False where few points decide the rms: its interval is wider than 30 % of it.
+  bool IsRmsSure() const { return rmsHigh - rmsLow <= 0.3 * rms; }
+  /// The error that counts: `rms`, or `bounded` where the first is not sure.
+  double Counting() const { return this->IsRmsSure() ? rms : bounded; }
 };
 
 /// The figures of irradiance `delivered` (W/m2) against its `reference`, one a point, which are the

@@ -86,6 +86,39 @@ TEST(SolutionError, InterpolatesWithinRefinedFaces) {
   EXPECT_NEAR(error.bias, 0.25, 0.01);
 }
 
+TEST(SolutionError, TakesMorePathsWhereNoiseHidesIt) {
+  // Two paths a point scatter by some tenth, far more than the 1 % by which the solution is off.
+  const Scene scene = BlackFurnace();
+  const RadiositySolution solution = FlatSolution(scene, 1.01f, 3, false);
+  SolutionErrorOptions options{500, 16, 1};
+  const SolutionError few = MeasureSolutionError(scene, solution, options);
+  ASSERT_GT(few.noise, few.Counting());
+  options.growth = 16;
+  const SolutionError more = MeasureSolutionError(scene, solution, options);
+  EXPECT_EQ(more.points + more.darkPoints, 500) << "more paths, not more points";
+  EXPECT_LT(more.noise, few.noise / 2);
+}
+
+TEST(SolutionError, TakesMorePointsWhereFewDecide) {
+  // One patch of 25 is 100 % too bright: rms 0.2, of which some 20 of 500 points tell.
+  const Scene scene = BlackFurnace();
+  RadiositySolution solution = FlatSolution(scene, 1, 6, false);
+  for (size_t i = 0; i < solution.irradiance.size(); ++i) {
+    const Vec3f& p = solution.mesh.positions[i];
+    if (p.z == 0 && std::max(p.x, p.y) < 0.3f) solution.irradiance[i] = Spectrum(2.f);
+  }
+  SolutionErrorOptions options{500, 256, 1};
+  const SolutionError few = MeasureSolutionError(scene, solution, options);
+  ASSERT_FALSE(few.IsRmsSure());
+  options.growth = 4;
+  const SolutionError more = MeasureSolutionError(scene, solution, options);
+  EXPECT_EQ(more.points + more.darkPoints, 2000);
+  EXPECT_LT(more.rmsHigh - more.rmsLow, few.rmsHigh - few.rmsLow);
+  // Once it is known to be enough there is nothing to decide.
+  options.enough = 1;
+  EXPECT_EQ(MeasureSolutionError(scene, solution, options).rms, few.rms);
+}
+
 TEST(SolutionError, NoLightNoError) {
   Scene scene;
   AddQuad(&scene.mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Spectrum(0.5f));
