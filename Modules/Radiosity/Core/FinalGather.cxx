@@ -26,6 +26,11 @@ constexpr float kNear = 1;
 constexpr float kMostOfLeaf = 16, kMostOfMean = 20;
 /// A facet that turns within a leaf receives up to this many times what its nearest sample does.
 constexpr float kMostTurned = 2;
+/// Samples of a leaf one of which receives more than this many times what another does, and
+/// reflects this part of the mean radiosity more, may lie on two sides of a wall.
+constexpr float kUneven = 3, kUnevenOverMean = 0.5f;
+/// A wall is looked for this many times the length that rays skip above a leaf.
+constexpr float kAboveLeaf = 2;
 /// Normals whose cosine is larger than this look the same way.
 constexpr float kSameWay = 0.8f;
 /// Bounces between near surfaces that are followed before a leaf is taken as one all the same.
@@ -68,6 +73,7 @@ FinalGather::FinalGather(const ElementHierarchy& hierarchy, const RayScene& rayS
   sampleIrradiance_.resize(size_t(hierarchy.Size()));
   sampleDirect_.resize(size_t(hierarchy.Size()));
   hasGathered_.resize(size_t(hierarchy.Size()), 0);
+  isUneven_.resize(size_t(hierarchy.Size()), 0);
   for (int32_t index = 0; index < hierarchy.Size(); ++index) {
     const Element& element = hierarchy[index];
     if (element.IsPolygon()) {
@@ -268,6 +274,7 @@ void FinalGather::GatherAtLeaves(int rays, double share, uint64_t seed, int64_t*
     *cast += castBy[i];
   }
   meanRadiosity_ = float(reflected / area);
+  for (const int32_t leaf : leaves) isUneven_[size_t(leaf)] = this->IsUneven(leaf);
 }
 
 // How much more a facet of a leaf receives when it turns, by the leaf's irradiance vectors.
@@ -280,25 +287,63 @@ float FinalGather::TurnedTo(int32_t leaf, const Vec3f& from, const Vec3f& to) co
   return before > 0 ? std::min(kMostTurned, after / before) : 1;
 }
 
-// That of the leaf's nearest sample that looks the same way; before it has gathered what links
-// brought it.
-Spectrum FinalGather::IrradianceOfLeaf(int32_t leaf, const Vec3f& place,
-                                       const Vec3f& normal) const {
+// Some of its samples are much brighter than others.
+bool FinalGather::IsUneven(int32_t leaf) const {
+  float least = std::numeric_limits<float>::max(), most = 0;
+  for (const Spectrum& irradiance : sampleIrradiance_[size_t(leaf)]) {
+    least = std::min(least, irradiance.Mean());
+    most = std::max(most, irradiance.Mean());
+  }
+  const float reflected = hierarchy_[leaf].reflectance.Mean() * (most - least);
+  return most > kUneven * least && reflected > kUnevenOverMean * meanRadiosity_;
+}
+
+// The nearest sample of a leaf that looks the same way, -1 where none does. One behind a wall that
+// stands on the leaf tells nothing of this place; where all do, the darkest is taken.
+int FinalGather::TellingSample(int32_t leaf, const Vec3f& place, const Vec3f& normal,
+                               int64_t* rays) const {
   const Element& element = hierarchy_[leaf];
-  if (hasGathered_[size_t(leaf)]) {
-    const auto& atSample = sampleIrradiance_[size_t(leaf)];
+  const bool asks = isUneven_[size_t(leaf)] && element.IsPolygon();
+  const Vec3f above = normal * (kAboveLeaf * rayScene_.Epsilon());
+  std::array<bool, kSamplesPerElement> isHidden{};
+  int darkest = -1;
+  for (;;) {
+    // The nearest that is left.
     int nearest = -1;
     float least = std::numeric_limits<float>::max();
     for (int k = 0; k < kSamplesPerElement; ++k) {
       const SurfaceSample& sample = element.samples[size_t(k)];
       const float distance = LengthSquared(sample.position - place);
-      if (distance >= least || Dot(sample.normal, normal) < kSameWay) continue;
+      if (isHidden[size_t(k)] || distance >= least || Dot(sample.normal, normal) < kSameWay) {
+        continue;
+      }
       nearest = k;
       least = distance;
     }
-    if (nearest >= 0)
-      return atSample[size_t(nearest)] *
-             this->TurnedTo(leaf, element.samples[size_t(nearest)].normal, normal);
+    if (nearest < 0 || !asks) return nearest < 0 ? darkest : nearest;
+
+    // Whether it lies behind a wall.
+    const Vec3f& position = element.samples[size_t(nearest)].position;
+    ++*rays;
+    if (!rayScene_.Occluded(place + above, position + above)) return nearest;
+    isHidden[size_t(nearest)] = true;
+    const auto& atSample = sampleIrradiance_[size_t(leaf)];
+    if (darkest < 0 || atSample[size_t(nearest)].Mean() < atSample[size_t(darkest)].Mean()) {
+      darkest = nearest;
+    }
+  }
+}
+
+// That of the sample that tells of a place; before the leaf has gathered what links brought it.
+Spectrum FinalGather::IrradianceOfLeaf(int32_t leaf, const Vec3f& place, const Vec3f& normal,
+                                       int64_t* rays) const {
+  const Element& element = hierarchy_[leaf];
+  if (hasGathered_[size_t(leaf)]) {
+    const int k = this->TellingSample(leaf, place, normal, rays);
+    if (k >= 0) {
+      return sampleIrradiance_[size_t(leaf)][size_t(k)] *
+             this->TurnedTo(leaf, element.samples[size_t(k)].normal, normal);
+    }
   }
   if (element.IsPolygon()) return polygonIrradiance_[size_t(leaf)];
   const VectorIrradiance& vectors = light_->irradiance[size_t(leaf)];
@@ -322,7 +367,7 @@ FinalGather::Radiosity FinalGather::Met(const Vec3f& from, const Vec3f& directio
   const int32_t leaf = this->LeafAt(hit.face, side, place);
   if (leaf < 0) return {{}, {}, hit.distance};
   const Element& element = hierarchy_[leaf];
-  const Spectrum ofLeaf = reflectance * this->IrradianceOfLeaf(leaf, place, normal);
+  const Spectrum ofLeaf = reflectance * this->IrradianceOfLeaf(leaf, place, normal, rays);
   if (bounces == 0 || hit.distance >= kNear * element.radius) return {{}, ofLeaf, hit.distance};
 
   // One direction stands for all of them: what it finds is taken up to some times what the leaf,

@@ -93,7 +93,10 @@ class FinalGather {
   Spectrum BalancingFactor(const std::vector<int32_t>& leaves,
                            const std::vector<LeafLight>& gathered) const;
   float TurnedTo(int32_t leaf, const Vec3f& from, const Vec3f& to) const;
-  Spectrum IrradianceOfLeaf(int32_t leaf, const Vec3f& place, const Vec3f& normal) const;
+  Spectrum IrradianceOfLeaf(int32_t leaf, const Vec3f& place, const Vec3f& normal,
+                            int64_t* rays) const;
+  int TellingSample(int32_t leaf, const Vec3f& place, const Vec3f& normal, int64_t* rays) const;
+  bool IsUneven(int32_t leaf) const;
   void Receive(int32_t leaf, const Spectrum& irradiance);
   void GatherBatch(const GatherPoint* points, int count, const BounceRays& rays, BounceSum* sums,
                    int64_t* cast) const;
@@ -119,8 +122,9 @@ class FinalGather {
   std::vector<std::array<Spectrum, kSamplesPerElement>> sampleIrradiance_;
   std::vector<std::array<Spectrum, kSamplesPerElement>> sampleDirect_;  ///< of it, from sources
   std::vector<uint8_t> hasGathered_;                                    ///< by element
-  float meanRadiosity_ = 0;  ///< of the leaves that have gathered, what they reflect, W/m2
-  std::vector<Cut> cuts_;    ///< by element, of triangles and patches that have children
+  std::vector<uint8_t> isUneven_;  ///< by element: its samples may lie on two sides of a wall
+  float meanRadiosity_ = 0;        ///< of the leaves that have gathered, what they reflect, W/m2
+  std::vector<Cut> cuts_;          ///< by element, of triangles and patches that have children
 };
 
 }  // namespace lambert

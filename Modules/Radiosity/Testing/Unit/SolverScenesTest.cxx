@@ -71,6 +71,28 @@ TEST(SolverScenes, AClosedSphereBesideALampLightsAWall) {
   }
 }
 
+TEST(SolverScenes, AWallKeepsTheNextRoomDark) {
+  // It parts a room off its lamp; floor, ceiling and two walls pass under it, each in one piece.
+  Scene scene;
+  AddLitRoom(&scene.mesh, 2, 0.5f, 10);
+  testing::AddQuad(&scene.mesh, {1.53f, 0, 0}, {0, 2, 0}, {0, 0, 2}, Spectrum(0.5f), Spectrum(0.f),
+                   1, 7);
+  testing::CompleteTables(&scene);
+  const SolvedScene solved = SolveScene(std::move(scene), 0.05);
+  double lit = 0, dark = 0;
+  int litPoints = 0, darkPoints = 0;
+  for (size_t i = 0; i < solved.solution.irradiance.size(); ++i) {
+    const Vec3f& p = solved.solution.mesh.positions[i];
+    const double irradiance = double(solved.solution.irradiance[i].Mean());
+    if (p.x < 1.5f) lit += irradiance, ++litPoints;
+    if (p.x > 1.56f) dark += irradiance, ++darkPoints;
+  }
+  ASSERT_GT(litPoints, 100);
+  // Half as much again came through leaves that lie under the wall; what is left links brought,
+  // less the half of it that every round of the gather at the leaves forgets.
+  EXPECT_LT(dark / std::max(1, darkPoints), 2e-3 * lit / litPoints);
+}
+
 /// A smooth sphere of 4 stacks (stacks - 1) triangles in a small lit room.
 Scene SphereInRoom(int stacks) {
   Scene scene;
