@@ -92,6 +92,33 @@ std::vector<CLI::Option*> AddAtlasOptions(CLI::App* command, AtlasOptions* atlas
           ->capture_default_str()};
 }
 
+/// How light becomes the colours of pictures and of PLY.
+void AddToneOptions(CLI::App* command, ToneMappingOptions* tone) {
+  const std::map<std::string, ToneCurve> curves{{"photographic", ToneCurve::Photographic},
+                                                {"linear", ToneCurve::Linear},
+                                                {"filmic", ToneCurve::Filmic}};
+  command
+      ->add_option_function<std::string>(
+          "--tone", [tone, curves](const std::string& name) { tone->curve = curves.at(name); },
+          "How luminance is compressed")
+      ->check(CLI::IsMember({"photographic", "linear", "filmic"}))
+      ->default_str("photographic");
+  command->add_option("--key", tone->key, "Display luminance of the mean of what is shown, (0, 1]")
+      ->check(Within(1e-6, 1, "from 1e-6 to 1"))
+      ->capture_default_str();
+  command->add_option("--exposure", tone->exposure, "Stops (EV) brighter or darker")
+      ->check(Within(-100, 100, "from -100 to 100"))
+      ->capture_default_str();
+  command
+      ->add_option_function<double>(
+          "--ev", [tone](double ev) { tone->exposureValue = ev; },
+          "Exposure value at ISO 100 of a camera that does not adapt to the light")
+      ->check(Within(-100, 100, "from -100 to 100"));
+  command->add_option("--white", tone->white, "Keyed luminance of full white; 0: by the curve")
+      ->check(NotNegative())
+      ->capture_default_str();
+}
+
 void RequirePngName(const std::string& image) {
   const std::string ending = std::filesystem::path(image).extension().string();
   if (!image.empty() && ending != ".png" && ending != ".PNG") {
@@ -233,9 +260,7 @@ void SolveArguments::AddTo(CLI::App* command) {
   command->add_option("--image", image, "PNG picture (needs an X display, xvfb-run will do)");
   command->add_option("--size", size, "Size of the picture, WxH pixels")->capture_default_str();
   command->add_option("--camera", camera, "px,py,pz,fx,fy,fz[,fov]: eye, point looked at, degrees");
-  command->add_option("--exposure", exposure, "Stops (EV) brighter or darker")
-      ->check(Within(-100, 100, "from -100 to 100"))
-      ->capture_default_str();
+  AddToneOptions(command, &tone);
   CLI::Option* map = command->add_option(
       "--lightmap", lightMap, "Mesh with texture coordinates, .vtp, its pages beside it as .hdr");
   for (CLI::Option* option : AddAtlasOptions(command, &atlas)) option->needs(map);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "Atlas/Core/RadiosityAtlas.h"
+#include "Display/Core/ToneMapping.h"
 #include "Engine/RadiosityRun.h"
 #include "Scene/Core/Scene.h"
 
@@ -47,7 +48,7 @@ struct SolveArguments {
   std::string probe, probeOutput, image, size = "960x720", camera, report, lightMap;
   AtlasOptions atlas;
   bool probeGather = false, bothSides = false;
-  double exposure = 0;
+  ToneMappingOptions tone;
   ProgressStyle progress = ProgressStyle::Auto;
   int verifyPoints = 0;
 

@@ -9,6 +9,7 @@
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Timer.h"
 #include "Display/vtkRadiosityImageWriter.h"
+#include "Display/vtkRadiosityToneMapping.h"
 #include "Engine/LightMapFile.h"
 #include "Engine/ProbeFile.h"
 #include "Engine/RunReport.h"
@@ -38,7 +39,7 @@ void WriteImage(const SolveArguments& arguments, const RadiosityRun& run) {
   const auto size = arguments.ImageSize();
   writer->SetInputData(data);
   writer->SetSize(size[0], size[1]);
-  writer->SetExposure(arguments.exposure);
+  writer->GetToneMapping()->SetOptions(arguments.tone);
   writer->SetFileName(arguments.image.c_str());
 
   // The eye: as asked for, the file's, or one that the writer chooses.
@@ -160,7 +161,7 @@ int Solve(const SolveArguments& arguments) {
 
   // Outputs.
   Stage("write", &display, &run, [&] {
-    WriteSolution(run.Solution(), run.GetScene(), arguments.output, arguments.exposure,
+    WriteSolution(run.Solution(), run.GetScene(), arguments.output, arguments.tone,
                   arguments.bothSides);
   });
   if (!arguments.probe.empty()) {

@@ -115,9 +115,19 @@ void AddColors(vtkPolyData* data, const lambert::ToneMapping& toneMapping) {
 }
 }  // namespace
 
-vtkRadiosityImageWriter::vtkRadiosityImageWriter() = default;
+vtkRadiosityImageWriter::vtkRadiosityImageWriter() : ToneMapping(vtkRadiosityToneMapping::New()) {}
 
-vtkRadiosityImageWriter::~vtkRadiosityImageWriter() { this->SetFileName(nullptr); }
+vtkRadiosityImageWriter::~vtkRadiosityImageWriter() {
+  this->SetFileName(nullptr);
+  this->ToneMapping->Delete();
+}
+
+void vtkRadiosityImageWriter::SetExposure(double exposure) {
+  this->ToneMapping->SetExposure(exposure);
+  this->Modified();
+}
+
+double vtkRadiosityImageWriter::GetExposure() { return this->ToneMapping->GetExposure(); }
 
 bool vtkRadiosityImageWriter::IsDisplayAvailable() {
   // The connection stays open: an X server resets, and refuses for a moment, when its last client
@@ -173,9 +183,8 @@ void vtkRadiosityImageWriter::WriteData() {
       const auto metered =
           this->Draw(colored, kLogCodes, std::max(1, this->Size[0] / kMeteringShrink),
                      std::max(1, this->Size[1] / kMeteringShrink));
-      lambert::ToneMappingOptions options;
-      options.exposure = this->Exposure;
-      AddColors(colored, lambert::ToneMapping(SamplesFromLogCodes(metered, mean), options));
+      AddColors(colored, lambert::ToneMapping(SamplesFromLogCodes(metered, mean),
+                                              this->ToneMapping->GetOptions()));
     }
 
     // Draw.
@@ -263,5 +272,5 @@ void vtkRadiosityImageWriter::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "Size: " << this->Size[0] << " x " << this->Size[1] << "\n"
      << indent << "AutomaticCamera: " << this->AutomaticCamera << "\n"
      << indent << "ViewAngle: " << this->ViewAngle << "\n"
-     << indent << "Exposure: " << this->Exposure << "\n";
+     << indent << "Exposure: " << this->GetExposure() << "\n";
 }

@@ -19,6 +19,7 @@
 
 class vtkImageData;
 class vtkPolyData;
+class vtkRadiosityToneMapping;
 class vtkRenderer;
 
 class LAMBERTDISPLAY_EXPORT vtkRadiosityImageWriter : public vtkWriter {
@@ -53,9 +54,11 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityImageWriter : public vtkWriter {
   vtkBooleanMacro(AutomaticCamera, bool);
   ///@}
 
-  ///@{ Tone mapping, as in vtkRadiosityToneMapping: stops (EV), default 0.
-  vtkSetMacro(Exposure, double);
-  vtkGetMacro(Exposure, double);
+  /// Where curve, key, exposure and white are set. It adapts to what the picture shows.
+  vtkGetObjectMacro(ToneMapping, vtkRadiosityToneMapping);
+  ///@{ Exposure of the tone mapping: stops (EV), default 0.
+  void SetExposure(double exposure);
+  double GetExposure();
   ///@}
 
   /// True where an X display answers, so that VTK can draw.
@@ -81,7 +84,7 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityImageWriter : public vtkWriter {
   double ViewUp[3] = {0, 1, 0};
   double ViewAngle = 40;
   bool AutomaticCamera = true;
-  double Exposure = 0;
+  vtkRadiosityToneMapping* ToneMapping;
 };
 
 #endif

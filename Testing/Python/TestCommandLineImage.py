@@ -29,6 +29,13 @@ assert np.percentile(plain, 98) > 100  # Something is lit
 assert np.mean(plain.min(axis=1) > 250) < 0.2  # and most is not blown.
 assert brighter.mean() > plain.mean() + 5
 
+# The curves differ; a camera of a fixed exposure value shows a stop less where the value is one more.
+assert np.abs(picture("--tone", "filmic") - plain).mean() > 2
+linear = [picture("--tone", "linear", "--ev", str(ev)) for ev in (3, 4)]
+middle = (linear[0] > 60) & (linear[0] < 200)
+decoded = [np.where(codes > 10.31, ((codes / 255 + 0.055) / 1.055) ** 2.4, codes / 255 / 12.92) for codes in linear]
+assert middle.any() and abs(np.median(decoded[0][middle] / decoded[1][middle]) - 2) < 0.1  # 8 bits at 60 codes: 4 %
+
 # A device that takes no byte stands for a full disk: one sentence, and no word of the PNG library.
 full = temporary("full.png")
 if os.path.lexists(full):
