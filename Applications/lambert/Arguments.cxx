@@ -93,15 +93,20 @@ std::vector<CLI::Option*> AddAtlasOptions(CLI::App* command, AtlasOptions* atlas
 }
 
 /// How light becomes the colours of pictures and of PLY.
-void AddToneOptions(CLI::App* command, ToneMappingOptions* tone) {
+void AddToneOptions(CLI::App* command, ToneMappingOptions* tone, bool* dodgingAndBurning) {
   const std::map<std::string, ToneCurve> curves{{"photographic", ToneCurve::Photographic},
+                                                {"local", ToneCurve::Photographic},
                                                 {"linear", ToneCurve::Linear},
                                                 {"filmic", ToneCurve::Filmic}};
   command
       ->add_option_function<std::string>(
-          "--tone", [tone, curves](const std::string& name) { tone->curve = curves.at(name); },
-          "How luminance is compressed")
-      ->check(CLI::IsMember({"photographic", "linear", "filmic"}))
+          "--tone",
+          [=](const std::string& name) {
+            tone->curve = curves.at(name);
+            *dodgingAndBurning = name == "local";
+          },
+          "How luminance is compressed; local: pictures expose every place for its surround")
+      ->check(CLI::IsMember({"photographic", "local", "linear", "filmic"}))
       ->default_str("photographic");
   command->add_option("--key", tone->key, "Display luminance of the mean of what is shown, (0, 1]")
       ->check(Within(1e-6, 1, "from 1e-6 to 1"))
@@ -260,7 +265,7 @@ void SolveArguments::AddTo(CLI::App* command) {
   command->add_option("--image", image, "PNG picture (needs an X display, xvfb-run will do)");
   command->add_option("--size", size, "Size of the picture, WxH pixels")->capture_default_str();
   command->add_option("--camera", camera, "px,py,pz,fx,fy,fz[,fov]: eye, point looked at, degrees");
-  AddToneOptions(command, &tone);
+  AddToneOptions(command, &tone, &dodgingAndBurning);
   CLI::Option* map = command->add_option(
       "--lightmap", lightMap, "Mesh with texture coordinates, .vtp, its pages beside it as .hdr");
   for (CLI::Option* option : AddAtlasOptions(command, &atlas)) option->needs(map);

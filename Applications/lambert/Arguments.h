@@ -49,6 +49,7 @@ struct SolveArguments {
   AtlasOptions atlas;
   bool probeGather = false, bothSides = false;
   ToneMappingOptions tone;
+  bool dodgingAndBurning = false;
   ProgressStyle progress = ProgressStyle::Auto;
   int verifyPoints = 0;
 

@@ -40,6 +40,7 @@ void WriteImage(const SolveArguments& arguments, const RadiosityRun& run) {
   writer->SetInputData(data);
   writer->SetSize(size[0], size[1]);
   writer->GetToneMapping()->SetOptions(arguments.tone);
+  writer->SetDodgingAndBurning(arguments.dodgingAndBurning);
   writer->SetFileName(arguments.image.c_str());
 
   // The eye: as asked for, the file's, or one that the writer chooses.

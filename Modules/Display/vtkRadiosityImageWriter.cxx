@@ -3,6 +3,7 @@
 #include "Common/Core/Error.h"
 #include "Display/Core/DefaultCamera.h"
 #include "Display/Core/ToneMapping.h"
+#include "LightPicture.h"
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkErrorCode.h"
@@ -27,7 +28,6 @@
 #include <X11/Xlib.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 
 vtkStandardNewMacro(vtkRadiosityImageWriter);
@@ -52,67 +52,6 @@ std::vector<lambert::Spectrum> ReadLight(vtkPolyData* data) {
   return light;
 }
 
-/// Metering: luminance as an 8-bit logarithm, 0 for black and for lamps, drawn small.
-constexpr const char* kLogCodes = "LogLuminance";
-constexpr double kStops = 24,
-                 kLowestStop = -12;  ///< of the mean luminance; a code is a tenth of a stop
-constexpr int kMeteringShrink = 4;
-
-vtkSmartPointer<vtkUnsignedCharArray> PointColors(const char* name, vtkIdType points) {
-  auto colors = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  colors->SetName(name);
-  colors->SetNumberOfComponents(3);
-  colors->SetNumberOfTuples(points);
-  return colors;
-}
-
-/// Adds the codes and returns the mean luminance that they are relative to.
-double AddLogCodes(vtkPolyData* data) {
-  const std::vector<lambert::LuminanceSample> samples =
-      lambert::LuminanceSamples(lambert::TriangleMeshFromPolyData(data), ReadLight(data));
-  double sum = 0, weight = 0;
-  for (const lambert::LuminanceSample& s : samples) {
-    sum += double(s.weight) * s.luminance;
-    weight += s.weight;
-  }
-  const auto codes = PointColors(kLogCodes, data->GetNumberOfPoints());
-  for (size_t point = 0; point < samples.size(); ++point) {
-    const lambert::LuminanceSample& s = samples[point];
-    const bool counts = s.weight > 0 && s.luminance > 0;
-    const double stop = counts ? std::log2(s.luminance * weight / sum) : kLowestStop;
-    const double code = counts ? 1 + 254 * (stop - kLowestStop) / kStops : 0;
-    const auto byte = static_cast<unsigned char>(std::clamp(code, 0., 255.));
-    const unsigned char tuple[3] = {byte, byte, byte};
-    codes->SetTypedTuple(static_cast<vtkIdType>(point), tuple);
-  }
-  data->GetPointData()->AddArray(codes);
-  return weight > 0 ? sum / weight : 0;
-}
-
-/// A sample a pixel that shows a lit surface.
-std::vector<lambert::LuminanceSample> SamplesFromLogCodes(vtkImageData* image, double mean) {
-  std::vector<lambert::LuminanceSample> samples;
-  const auto* codes = static_cast<const unsigned char*>(image->GetScalarPointer());
-  for (vtkIdType pixel = 0; pixel < image->GetNumberOfPoints(); ++pixel) {
-    const unsigned char code = codes[pixel * image->GetNumberOfScalarComponents()];
-    if (code > 0) {
-      const double stop = kLowestStop + kStops * (code - 1) / 254;
-      samples.push_back({static_cast<float>(mean * std::exp2(stop)), 1});
-    }
-  }
-  return samples;
-}
-
-void AddColors(vtkPolyData* data, const lambert::ToneMapping& toneMapping) {
-  const char* name = vtkRadiosityToneMapping::ColorsArrayName();
-  const auto colors = PointColors(name, data->GetNumberOfPoints());
-  const std::vector<lambert::Spectrum> light = ReadLight(data);
-  for (size_t point = 0; point < light.size(); ++point) {
-    colors->SetTypedTuple(static_cast<vtkIdType>(point),
-                          toneMapping.ApplyToBytes(light[point]).data());
-  }
-  data->GetPointData()->AddArray(colors);
-}
 }  // namespace
 
 vtkRadiosityImageWriter::vtkRadiosityImageWriter() : ToneMapping(vtkRadiosityToneMapping::New()) {}
@@ -175,21 +114,13 @@ void vtkRadiosityImageWriter::WriteData() {
           "Drawing a picture needs an X display and none answers: run under xvfb-run.");
     }
 
-    // Expose for what the picture shows, unless the points are coloured already.
-    vtkNew<vtkPolyData> colored;
-    colored->ShallowCopy(vtkPolyData::SafeDownCast(this->GetInput()));
-    if (!colored->GetPointData()->GetArray(vtkRadiosityToneMapping::ColorsArrayName())) {
-      const double mean = AddLogCodes(colored);
-      const auto metered =
-          this->Draw(colored, kLogCodes, std::max(1, this->Size[0] / kMeteringShrink),
-                     std::max(1, this->Size[1] / kMeteringShrink));
-      AddColors(colored, lambert::ToneMapping(SamplesFromLogCodes(metered, mean),
-                                              this->ToneMapping->GetOptions()));
-    }
-
     // Draw.
-    this->WriteImage(this->Draw(colored, vtkRadiosityToneMapping::ColorsArrayName(),
-                                kSupersampling * this->Size[0], kSupersampling * this->Size[1]));
+    vtkPolyData* scene = vtkPolyData::SafeDownCast(this->GetInput());
+    vtkNew<vtkCamera> camera;
+    this->PlaceCamera(scene, camera);
+    const bool isColored =
+        scene->GetPointData()->HasArray(vtkRadiosityToneMapping::ColorsArrayName());
+    this->WriteImage(isColored ? this->DrawColors(scene, camera) : this->DrawLight(scene, camera));
   } catch (const std::exception& error) {
     if (this->GetErrorCode() == vtkErrorCode::NoError) {
       this->SetErrorCode(vtkErrorCode::UnknownError);
@@ -198,11 +129,10 @@ void vtkRadiosityImageWriter::WriteData() {
   }
 }
 
-void vtkRadiosityImageWriter::PlaceCamera(vtkRenderer* renderer, vtkPolyData* colored) {
-  vtkCamera* camera = renderer->GetActiveCamera();
+void vtkRadiosityImageWriter::PlaceCamera(vtkPolyData* scene, vtkCamera* camera) {
   if (this->AutomaticCamera) {
     const lambert::Camera chosen =
-        lambert::DefaultCamera(lambert::TriangleMeshFromPolyData(colored), ReadLight(colored),
+        lambert::DefaultCamera(lambert::TriangleMeshFromPolyData(scene), ReadLight(scene),
                                static_cast<double>(this->Size[0]) / this->Size[1]);
     camera->SetPosition(chosen.position.x, chosen.position.y, chosen.position.z);
     camera->SetFocalPoint(chosen.focalPoint.x, chosen.focalPoint.y, chosen.focalPoint.z);
@@ -214,16 +144,34 @@ void vtkRadiosityImageWriter::PlaceCamera(vtkRenderer* renderer, vtkPolyData* co
     camera->SetViewUp(this->ViewUp);
     camera->SetViewAngle(this->ViewAngle);
   }
-  renderer->ResetCameraClippingRange();
 }
 
-vtkSmartPointer<vtkImageData> vtkRadiosityImageWriter::Draw(vtkPolyData* data, const char* colors,
-                                                            int width, int height) {
-  // The light as it is: vertex colours, no shading, front faces only.
+vtkSmartPointer<vtkImageData> vtkRadiosityImageWriter::DrawLight(vtkPolyData* scene,
+                                                                 vtkCamera* camera) {
+  if (this->DodgingAndBurning &&
+      this->ToneMapping->GetCurve() != vtkRadiosityToneMapping::PHOTOGRAPHIC) {
+    throw lambert::Error("Dodging and burning belongs to the photographic curve.");
+  }
+
+  // Expose for what the picture shows.
+  ReadLight(scene);
+  const lambert::ToneMapping toneMapping =
+      this->ToneMapping->Adapt(lambert::MeterLight(scene, camera, this->Size[0], this->Size[1]));
+
+  // Draw the light, and develop it.
+  const lambert::LightImage light = lambert::DrawLight(
+      scene, camera, kSupersampling * this->Size[0], kSupersampling * this->Size[1]);
+  return lambert::Develop(light, toneMapping, this->ToneMapping->GetKey(), this->DodgingAndBurning,
+                          kSupersampling);
+}
+
+vtkSmartPointer<vtkImageData> vtkRadiosityImageWriter::DrawColors(vtkPolyData* scene,
+                                                                  vtkCamera* camera) {
+  // Colours as they are: no shading, front faces only.
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
+  mapper->SetInputData(scene);
   mapper->SetScalarModeToUsePointFieldData();
-  mapper->SelectColorArray(colors);
+  mapper->SelectColorArray(vtkRadiosityToneMapping::ColorsArrayName());
   mapper->SetColorModeToDirectScalars();
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
@@ -236,9 +184,10 @@ vtkSmartPointer<vtkImageData> vtkRadiosityImageWriter::Draw(vtkPolyData* data, c
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(0);
-  window->SetSize(width, height);
+  window->SetSize(kSupersampling * this->Size[0], kSupersampling * this->Size[1]);
   window->AddRenderer(renderer);
-  this->PlaceCamera(renderer, data);
+  renderer->SetActiveCamera(camera);
+  renderer->ResetCameraClippingRange();
   window->Render();
   vtkNew<vtkWindowToImageFilter> grab;
   grab->SetInput(window);
@@ -272,5 +221,6 @@ void vtkRadiosityImageWriter::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "Size: " << this->Size[0] << " x " << this->Size[1] << "\n"
      << indent << "AutomaticCamera: " << this->AutomaticCamera << "\n"
      << indent << "ViewAngle: " << this->ViewAngle << "\n"
+     << indent << "DodgingAndBurning: " << this->DodgingAndBurning << "\n"
      << indent << "Exposure: " << this->GetExposure() << "\n";
 }

@@ -4,8 +4,8 @@
  *
  * Input: a vtkPolyData with `Radiosity` at its points, as a radiosity method or
  * vtkRadiosityToneMapping leaves it; an array `Colors` that is there already is shown as it stands.
- * Light is drawn as vertex colours without any shading of VTK's own; faces seen from behind are
- * left out, since a lit back side has faces of its own. Four samples a pixel.
+ * Light is drawn linear, without any shading of VTK's own, and tone mapped by pixel; faces seen
+ * from behind are left out, since a lit back side has faces of its own. Four samples a pixel.
  *
  * Needs an X display; where none answers, an error says so and nothing is written (run under
  * xvfb-run).
@@ -17,10 +17,10 @@
 #include "vtkSmartPointer.h"  // for pictures
 #include "vtkWriter.h"
 
+class vtkCamera;
 class vtkImageData;
 class vtkPolyData;
 class vtkRadiosityToneMapping;
-class vtkRenderer;
 
 class LAMBERTDISPLAY_EXPORT vtkRadiosityImageWriter : public vtkWriter {
  public:
@@ -61,6 +61,13 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityImageWriter : public vtkWriter {
   double GetExposure();
   ///@}
 
+  ///@{ The local photographic operator (reinhard2002, 3.2): every place is exposed for its
+  /// surround. Default off.
+  vtkSetMacro(DodgingAndBurning, bool);
+  vtkGetMacro(DodgingAndBurning, bool);
+  vtkBooleanMacro(DodgingAndBurning, bool);
+  ///@}
+
   /// True where an X display answers, so that VTK can draw.
   static bool IsDisplayAvailable();
 
@@ -73,8 +80,9 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityImageWriter : public vtkWriter {
  private:
   vtkRadiosityImageWriter(const vtkRadiosityImageWriter&) = delete;
   void operator=(const vtkRadiosityImageWriter&) = delete;
-  void PlaceCamera(vtkRenderer* renderer, vtkPolyData* colored);
-  vtkSmartPointer<vtkImageData> Draw(vtkPolyData* data, const char* colors, int width, int height);
+  void PlaceCamera(vtkPolyData* scene, vtkCamera* camera);
+  vtkSmartPointer<vtkImageData> DrawLight(vtkPolyData* scene, vtkCamera* camera);
+  vtkSmartPointer<vtkImageData> DrawColors(vtkPolyData* scene, vtkCamera* camera);
   void WriteImage(vtkImageData* image);
 
   char* FileName = nullptr;
@@ -85,6 +93,7 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityImageWriter : public vtkWriter {
   double ViewAngle = 40;
   bool AutomaticCamera = true;
   vtkRadiosityToneMapping* ToneMapping;
+  bool DodgingAndBurning = false;
 };
 
 #endif

@@ -72,6 +72,13 @@ void vtkRadiosityToneMapping::SetSteadyStops(double stops) {
   this->Modified();
 }
 
+lambert::ToneMapping vtkRadiosityToneMapping::Adapt(
+    const std::vector<lambert::LuminanceSample>& samples) {
+  const lambert::Adaptation measured = lambert::MeasureAdaptation(samples);
+  return lambert::ToneMapping(this->Steady ? this->Steady->Follow(measured) : measured,
+                              *this->Options);
+}
+
 namespace {
 std::vector<lambert::Spectrum> PointLight(vtkPolyData* input) {
   using Names = vtkRadiosityArrays;
@@ -106,12 +113,7 @@ int vtkRadiosityToneMapping::RequestData(vtkInformation*, vtkInformationVector**
     // Adapt to the light that the scene reflects.
     const std::vector<lambert::Spectrum> light = PointLight(input);
     const lambert::TriangleMesh mesh = lambert::TriangleMeshFromPolyData(input);
-    lambert::Adaptation adaptation =
-        lambert::MeasureAdaptation(lambert::LuminanceSamples(mesh, light));
-    if (this->Steady) {
-      adaptation = this->Steady->Follow(adaptation);
-    }
-    const lambert::ToneMapping toneMapping(adaptation, *this->Options);
+    const lambert::ToneMapping toneMapping = this->Adapt(lambert::LuminanceSamples(mesh, light));
 
     // Colour every point.
     vtkNew<vtkUnsignedCharArray> colors;

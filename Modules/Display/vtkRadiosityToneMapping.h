@@ -14,9 +14,12 @@
 #include "vtkPolyDataAlgorithm.h"
 
 #include <memory>  // for the options
+#include <vector>  // for samples
 
 namespace lambert {
 class SteadyAdaptation;
+class ToneMapping;
+struct LuminanceSample;
 struct ToneMappingOptions;
 }  // namespace lambert
 
@@ -60,7 +63,9 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityToneMapping : public vtkPolyDataAlgorith
   vtkGetMacro(SteadyStops, double);
   ///@}
 
-  ///@{ All of the above but SteadyStops, for what draws by itself. C++ only.
+  /// The operator, adapted to `samples`, for what draws by itself. Throws lambert::Error. C++ only.
+  lambert::ToneMapping Adapt(const std::vector<lambert::LuminanceSample>& samples);
+  ///@{ All options but SteadyStops. C++ only.
   void SetOptions(const lambert::ToneMappingOptions& options);
   const lambert::ToneMappingOptions& GetOptions() const { return *this->Options; }
   ///@}

@@ -31,6 +31,8 @@ assert brighter.mean() > plain.mean() + 5
 
 # The curves differ; a camera of a fixed exposure value shows a stop less where the value is one more.
 assert np.abs(picture("--tone", "filmic") - plain).mean() > 2
+local = np.abs(picture("--tone", "local") - plain)
+assert local.max() > 10 and local.mean() < 5, (local.max(), local.mean())  # Beside edges alone.
 linear = [picture("--tone", "linear", "--ev", str(ev)) for ev in (3, 4)]
 middle = (linear[0] > 60) & (linear[0] < 200)
 decoded = [np.where(codes > 10.31, ((codes / 255 + 0.055) / 1.055) ** 2.4, codes / 255 / 12.92) for codes in linear]

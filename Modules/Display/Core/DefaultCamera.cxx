@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "Common/Core/Random.h"
+#include "Display/Core/RegularSplit.h"
 
 namespace lambert {
 namespace {
@@ -81,17 +82,12 @@ class BrightnessGrid {
     const float light = (Luminance(radiosity[size_t(t[0])]) + Luminance(radiosity[size_t(t[1])]) +
                          Luminance(radiosity[size_t(t[2])])) /
                         3;
-    for (int i = 0; i < n; ++i) {
-      for (int j = 0; j < 2 * (n - i) - 1;
-           ++j) {  // Centers of the n^2 triangles of a regular split.
-        const float u = (float(i) + (j % 2 ? 2 / 3.f : 1 / 3.f)) / float(n);
-        const float v = (float(j / 2) + (j % 2 ? 2 / 3.f : 1 / 3.f)) / float(n);
-        const int64_t index = Index(a + (b - a) * u + (c - a) * v);
-        if (index < 0) continue;
-        area_[size_t(index)] += share;
-        light_[size_t(index)] += share * light;
-      }
-    }
+    ForEachMiddleOfSplit(n, [&](const Vec2f& place) {
+      const int64_t index = Index(PlaceOnTriangle(a, b, c, place));
+      if (index < 0) return;
+      area_[size_t(index)] += share;
+      light_[size_t(index)] += share * light;
+    });
   }
 
   void FindUsualBrightness() {

@@ -115,3 +115,16 @@ front = picture("tone-front.png", 0, 0, 3, 0, 0, 0)
 assert front[30, 50, 1] > front[30, 30, 1] > front[2, 2, 1] + 20
 back = picture("tone-back.png", 0, 0, -3, 0, 0, 0)
 assert np.ptp(back) <= 3  # The background's three bands alone.
+
+# Light that is not coloured yet is developed by pixel; dodging and burning belongs to the photographic curve.
+writer, errors = lambert.vtkRadiosityImageWriter(), []
+writer.AddObserver("ErrorEvent", lambda *_: errors.append(1))
+writer.SetInputData(lit_plane())
+writer.SetFileName(os.path.join(os.environ["LAMBERT_TEMPORARY_DIR"], "tone-local.png"))
+writer.SetSize(80, 60)
+writer.DodgingAndBurningOn()
+writer.Write()
+assert not errors and os.path.exists(writer.GetFileName())
+writer.GetToneMapping().SetCurveToFilmic()
+writer.Write()
+assert errors and writer.GetErrorCode() != 0
