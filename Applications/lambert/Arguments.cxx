@@ -265,6 +265,9 @@ void SolveArguments::AddTo(CLI::App* command) {
   command->add_option("--image", image, "PNG picture (needs an X display, xvfb-run will do)");
   command->add_option("--size", size, "Size of the picture, WxH pixels")->capture_default_str();
   command->add_option("--camera", camera, "px,py,pz,fx,fy,fz[,fov]: eye, point looked at, degrees");
+  command->add_option("--up", up, "What is up in the picture: auto, x, y, z")
+      ->check(CLI::IsMember({"auto", "x", "y", "z"}))
+      ->capture_default_str();
   AddToneOptions(command, &tone, &dodgingAndBurning);
   CLI::Option* map = command->add_option(
       "--lightmap", lightMap, "Mesh with texture coordinates, .vtp, its pages beside it as .hdr");
@@ -304,7 +307,7 @@ void SolveArguments::Check() const {
     }
   }
   ImageSize();
-  ImageCamera();
+  ImageCamera(UpAxis::Y);
 }
 
 void SolveArguments::RequireOptionsOfMethod() const {
@@ -328,7 +331,18 @@ std::array<int, 2> SolveArguments::ImageSize() const {
   return {int(numbers[0]), int(numbers[1])};
 }
 
-std::optional<Camera> SolveArguments::ImageCamera() const {
+UpAxis SolveArguments::ImageUp(const TriangleMesh& mesh) const {
+  static const std::map<std::string, UpAxis> kAxes{
+      {"x", UpAxis::X}, {"y", UpAxis::Y}, {"z", UpAxis::Z}};
+  if (up != "auto") return kAxes.at(up);
+  const bool allSayIt = std::all_of(scene.files.begin(), scene.files.end(), [](const auto& file) {
+    const std::string ending = std::filesystem::path(file).extension().string();
+    return ending == ".gltf" || ending == ".glb";
+  });
+  return allSayIt ? UpAxis::Y : GuessUpAxis(mesh);
+}
+
+std::optional<Camera> SolveArguments::ImageCamera(UpAxis imageUp) const {
   if (camera.empty()) return {};
   const std::vector<double> n = ParseNumbers(camera, ',');
   if (n.size() != 6 && n.size() != 7) {
@@ -343,8 +357,9 @@ std::optional<Camera> SolveArguments::ImageCamera() const {
     throw CLI::ValidationError(
         "--camera", "needs two different points and a field of view of 0 to 180 degrees");
   }
-  if (std::abs(forward.y) > 0.999)
-    view.viewUp = {0, 0, -1};  // Straight up or down: -z is up in the picture.
+  // Straight up or down what lies ahead of a y-up camera, -z, is up in the picture.
+  const bool isSteep = std::abs(ToYUp(forward, imageUp).y) > 0.999;
+  view.viewUp = FromYUp(isSteep ? Vec3d(0, 0, -1) : Vec3d(0, 1, 0), imageUp);
   return view;
 }
 

@@ -8,6 +8,7 @@
 
 #include "Atlas/Core/RadiosityAtlas.h"
 #include "Display/Core/ToneMapping.h"
+#include "Display/Core/UpAxis.h"
 #include "Engine/RadiosityRun.h"
 #include "Scene/Core/Scene.h"
 
@@ -45,7 +46,7 @@ struct SolveArguments {
   double time = 0;
   int threads = 0;
   std::vector<float> sky;
-  std::string probe, probeOutput, image, size = "960x720", camera, report, lightMap;
+  std::string probe, probeOutput, image, size = "960x720", camera, up = "auto", report, lightMap;
   AtlasOptions atlas;
   bool probeGather = false, bothSides = false;
   ToneMappingOptions tone;
@@ -58,8 +59,10 @@ struct SolveArguments {
   void Check() const;
   /// Width and height in pixels.
   std::array<int, 2> ImageSize() const;
+  /// What is up in pictures of `mesh`: as asked for, y where all files are glTF, else guessed.
+  UpAxis ImageUp(const TriangleMesh& mesh) const;
   /// The camera that was asked for, if any.
-  std::optional<Camera> ImageCamera() const;
+  std::optional<Camera> ImageCamera(UpAxis imageUp) const;
   RadiosityRunOptions RunOptions() const;
 
  private:

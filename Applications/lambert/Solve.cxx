@@ -44,8 +44,10 @@ void WriteImage(const SolveArguments& arguments, const RadiosityRun& run) {
   writer->SetFileName(arguments.image.c_str());
 
   // The eye: as asked for, the file's, or one that the writer chooses.
-  const std::optional<Camera> camera =
-      arguments.ImageCamera() ? arguments.ImageCamera() : run.GetScene().camera;
+  const UpAxis axis = arguments.ImageUp(run.GetScene().mesh);
+  const std::optional<Camera> asked = arguments.ImageCamera(axis);
+  const std::optional<Camera> camera = asked ? asked : run.GetScene().camera;
+  writer->SetUpAxis(static_cast<int>(axis));
   if (camera) {
     const Vec3d &p = camera->position, &f = camera->focalPoint, &up = camera->viewUp;
     writer->SetCamera(p.x, p.y, p.z, f.x, f.y, f.z);

@@ -32,11 +32,13 @@ in vec2 lightMapCoordsVSOutput;
 
 vec3 LinearFromSrgb(vec3 code)
 {
-  return mix(pow((code + 0.055) / 1.055, vec3(2.4)), code / 12.92, lessThanEqual(code, vec3(0.04045)));
+  vec3 power = pow((code + 0.055) / 1.055, vec3(2.4));
+  return mix(power, code / 12.92, lessThanEqual(code, vec3(0.04045)));
 }
 vec3 SrgbFromLinear(vec3 light)
 {
-  return mix(1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055, 12.92 * light, lessThanEqual(light, vec3(0.0031308)));
+  vec3 power = 1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055;
+  return mix(power, 12.92 * light, lessThanEqual(light, vec3(0.0031308)));
 }
 vec3 FilmicResponse(vec3 x)
 {
@@ -59,7 +61,7 @@ vec3 Displayed(vec3 radiosity)
 }
 )";
 
-/// The declarations of VTK's shader, then ours.
+/// What VTK puts at the tag, then ours.
 std::string Behind(const std::string& tag, const std::string& code) { return tag + "\n" + code; }
 
 /// Radiosity at the fragment, displayed, and the specular light that VTK has worked out.

@@ -138,9 +138,11 @@ bool vtkRadiosityActor::Update() {
     return false;
   }
   try {
-    if (std::max({this->InputTime.GetMTime(), this->Mesh->GetMTime(),
-                  this->GetTexture() ? this->GetTexture()->GetMTime() : 0}) >
-        this->AppearanceTime) {
+    const char* sampler = nullptr;
+    const bool isTextured = this->BaseTexture(&sampler) != nullptr;
+    if (std::max(this->InputTime.GetMTime(), this->Mesh->GetMTime()) > this->AppearanceTime ||
+        isTextured != this->IsTextured) {
+      this->IsTextured = isTextured;
       this->UpdateLightMap();
       this->UpdateAppearance();
       this->AppearanceTime.Modified();
@@ -183,10 +185,9 @@ void vtkRadiosityActor::UpdateLightMap() {
 
 void vtkRadiosityActor::UpdateAppearance() {
   // What the points bring.
-  const char* sampler = nullptr;
   const lambert::TriangleMesh mesh = lambert::TriangleMeshFromPolyData(this->Mesh);
   const lambert::PointAppearance appearance = lambert::MakePointAppearance(
-      mesh, LightOf(this->Mesh, this->GetNumberOfLightMapPages()), this->BaseTexture(&sampler));
+      mesh, LightOf(this->Mesh, this->GetNumberOfLightMapPages()), this->IsTextured);
   this->Drawn->Initialize();
   this->Drawn->CopyStructure(this->Mesh);
   vtkPointData* points = this->Drawn->GetPointData();

@@ -95,6 +95,7 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityActor : public vtkOpenGLActor {
   std::unique_ptr<lambert::LightImage> LightMap;  ///< the pages, one above the other
   std::vector<lambert::LuminanceSample> Samples;  ///< of what is shown
   std::unique_ptr<lambert::ToneMapping> Exposure;
+  bool IsTextured = false;
   vtkTimeStamp InputTime, AppearanceTime, ExposureTime;
 };
 

@@ -131,9 +131,12 @@ void vtkRadiosityImageWriter::WriteData() {
 
 void vtkRadiosityImageWriter::PlaceCamera(vtkPolyData* scene, vtkCamera* camera) {
   if (this->AutomaticCamera) {
-    const lambert::Camera chosen =
-        lambert::DefaultCamera(lambert::TriangleMeshFromPolyData(scene), ReadLight(scene),
-                               static_cast<double>(this->Size[0]) / this->Size[1]);
+    const lambert::TriangleMesh mesh = lambert::TriangleMeshFromPolyData(scene);
+    const lambert::UpAxis up = this->UpAxis == UP_GUESSED
+                                   ? lambert::GuessUpAxis(mesh)
+                                   : static_cast<lambert::UpAxis>(this->UpAxis);
+    const lambert::Camera chosen = lambert::DefaultCamera(
+        mesh, ReadLight(scene), static_cast<double>(this->Size[0]) / this->Size[1], up);
     camera->SetPosition(chosen.position.x, chosen.position.y, chosen.position.z);
     camera->SetFocalPoint(chosen.focalPoint.x, chosen.focalPoint.y, chosen.focalPoint.z);
     camera->SetViewUp(chosen.viewUp.x, chosen.viewUp.y, chosen.viewUp.z);
@@ -220,6 +223,7 @@ void vtkRadiosityImageWriter::PrintSelf(ostream& os, vtkIndent indent) {
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n"
      << indent << "Size: " << this->Size[0] << " x " << this->Size[1] << "\n"
      << indent << "AutomaticCamera: " << this->AutomaticCamera << "\n"
+     << indent << "UpAxis: " << this->UpAxis << "\n"
      << indent << "ViewAngle: " << this->ViewAngle << "\n"
      << indent << "DodgingAndBurning: " << this->DodgingAndBurning << "\n"
      << indent << "Exposure: " << this->GetExposure() << "\n";

@@ -48,6 +48,12 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityImageWriter : public vtkWriter {
   vtkSetClampMacro(ViewAngle, double, 1e-3, 179);
   vtkGetMacro(ViewAngle, double);
   ///@}
+  ///@{ Which axis is up where the view is chosen: x, y, z, or as the scene looks (default): see
+  /// lambert::GuessUpAxis.
+  enum UpAxes { UP_GUESSED = -1, UP_X, UP_Y, UP_Z };
+  vtkSetClampMacro(UpAxis, int, UP_GUESSED, UP_Z);
+  vtkGetMacro(UpAxis, int);
+  ///@}
   ///@{ A view chosen from the scene (see Documentation/Stages/ToneMapping.md); default on.
   vtkSetMacro(AutomaticCamera, bool);
   vtkGetMacro(AutomaticCamera, bool);
@@ -91,6 +97,7 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityImageWriter : public vtkWriter {
   double FocalPoint[3] = {0, 0, 0};
   double ViewUp[3] = {0, 1, 0};
   double ViewAngle = 40;
+  int UpAxis = UP_GUESSED;
   bool AutomaticCamera = true;
   vtkRadiosityToneMapping* ToneMapping;
   bool DodgingAndBurning = false;

@@ -6,10 +6,13 @@ import lambert
 writer = lambert.vtkRadiosityImageWriter()
 for name, default, other in (("FileName", None, "picture.png"), ("Size", (960, 720), (64, 48)), ("ViewAngle", 40.0, 60.0),
                              ("AutomaticCamera", True, False),
-                             ("Exposure", 0.0, -1.5), ("DodgingAndBurning", False, True)):
+                             ("Exposure", 0.0, -1.5), ("DodgingAndBurning", False, True), ("UpAxis", -1, 2)):
     assert getattr(writer, "Get" + name)() == default, name
     getattr(writer, "Set" + name)(other)
     assert getattr(writer, "Get" + name)() == other, name
+
+writer.SetUpAxis(7)
+assert writer.GetUpAxis() == writer.UP_Z
 
 # A camera of one's own ends the automatic one.
 writer.AutomaticCameraOn()
