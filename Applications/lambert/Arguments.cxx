@@ -124,6 +124,26 @@ void AddToneOptions(CLI::App* command, ToneMappingOptions* tone, bool* dodgingAn
       ->capture_default_str();
 }
 
+/// Illuminance in place of what the eye sees.
+void AddFalseColorOptions(CLI::App* command, SolveArguments* arguments) {
+  CLI::Option* colors = command
+                            ->add_option("--false-colors", arguments->falseColors,
+                                         "Picture of illuminance beside a scale: lux, W/m2")
+                            ->check(CLI::IsMember({"lux", "W/m2"}));
+  command->add_option("--range", arguments->falseColorRange, "Ends of the scale")
+      ->expected(2)
+      ->check(NotNegative())
+      ->needs(colors);
+  command
+      ->add_option("--steps", arguments->falseColorSteps,
+                   "Steps of the scale; 0: 4 to 6, as is round")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str()
+      ->needs(colors);
+  command->add_flag("--isolines", arguments->isolines, "Lines of equal illuminance at its labels")
+      ->needs(colors);
+}
+
 void RequirePngName(const std::string& image) {
   const std::string ending = std::filesystem::path(image).extension().string();
   if (!image.empty() && ending != ".png" && ending != ".PNG") {
@@ -269,6 +289,7 @@ void SolveArguments::AddTo(CLI::App* command) {
       ->check(CLI::IsMember({"auto", "x", "y", "z"}))
       ->capture_default_str();
   AddToneOptions(command, &tone, &dodgingAndBurning);
+  AddFalseColorOptions(command, this);
   CLI::Option* map = command->add_option(
       "--lightmap", lightMap, "Mesh with texture coordinates, .vtp, its pages beside it as .hdr");
   for (CLI::Option* option : AddAtlasOptions(command, &atlas)) option->needs(map);
@@ -291,6 +312,9 @@ void SolveArguments::Check() const {
     throw CLI::ValidationError("--probe", "--probe and --probe-output belong together");
   }
   RequirePngName(image);
+  if (!falseColorRange.empty() && !(falseColorRange[1] > falseColorRange[0])) {
+    throw CLI::ValidationError("--range", "goes from a number up to a larger one");
+  }
   FilesOfRun files(scene.files);
   files.Add("--probe", probe, false);
   files.Add("--output", output, true);

@@ -51,6 +51,10 @@ struct SolveArguments {
   bool probeGather = false, bothSides = false;
   ToneMappingOptions tone;
   bool dodgingAndBurning = false;
+  std::string falseColors;
+  std::vector<double> falseColorRange;
+  int falseColorSteps = 0;
+  bool isolines = false;
   ProgressStyle progress = ProgressStyle::Auto;
   int verifyPoints = 0;
 

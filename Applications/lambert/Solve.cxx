@@ -41,6 +41,16 @@ void WriteImage(const SolveArguments& arguments, const RadiosityRun& run) {
   writer->SetSize(size[0], size[1]);
   writer->GetToneMapping()->SetOptions(arguments.tone);
   writer->SetDodgingAndBurning(arguments.dodgingAndBurning);
+  if (!arguments.falseColors.empty()) {
+    writer->SetFalseColors(arguments.falseColors == "lux"
+                               ? vtkRadiosityImageWriter::LUX
+                               : vtkRadiosityImageWriter::WATTS_PER_SQUARE_METRE);
+    writer->SetFalseColorSteps(arguments.falseColorSteps);
+    writer->SetIsolines(arguments.isolines);
+  }
+  if (!arguments.falseColorRange.empty()) {
+    writer->SetFalseColorRange(arguments.falseColorRange[0], arguments.falseColorRange[1]);
+  }
   writer->SetFileName(arguments.image.c_str());
 
   // The eye: as asked for, the file's, or one that the writer chooses.

@@ -3,6 +3,7 @@
 #include "Common/Core/Error.h"
 #include "Display/Core/DefaultCamera.h"
 #include "Display/Core/ToneMapping.h"
+#include "FalseColorPicture.h"
 #include "LightPicture.h"
 #include "vtkActor.h"
 #include "vtkCamera.h"
@@ -29,6 +30,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <string>
 
 vtkStandardNewMacro(vtkRadiosityImageWriter);
 
@@ -37,12 +39,12 @@ namespace {
 constexpr int kSupersampling = 2;
 constexpr int kMaximumSize = 8192;
 
-std::vector<lambert::Spectrum> ReadLight(vtkPolyData* data) {
+std::vector<lambert::Spectrum> ReadLight(vtkPolyData* data, const char* name) {
   std::vector<lambert::Spectrum> light(static_cast<size_t>(data->GetNumberOfPoints()));
-  vtkDataArray* array = data->GetPointData()->GetArray(vtkRadiosityArrays::Radiosity());
+  vtkDataArray* array = data->GetPointData()->GetArray(name);
   if (!array || array->GetNumberOfComponents() != 3) {
-    throw lambert::Error(
-        "The data has no point array Radiosity of three components; run a radiosity method first.");
+    throw lambert::Error("The data has no point array " + std::string(name) +
+                         " of three components; run a radiosity method first.");
   }
   for (size_t point = 0; point < light.size(); ++point) {
     double tuple[3];
@@ -51,7 +53,6 @@ std::vector<lambert::Spectrum> ReadLight(vtkPolyData* data) {
   }
   return light;
 }
-
 }  // namespace
 
 vtkRadiosityImageWriter::vtkRadiosityImageWriter() : ToneMapping(vtkRadiosityToneMapping::New()) {}
@@ -118,9 +119,13 @@ void vtkRadiosityImageWriter::WriteData() {
     vtkPolyData* scene = vtkPolyData::SafeDownCast(this->GetInput());
     vtkNew<vtkCamera> camera;
     this->PlaceCamera(scene, camera);
-    const bool isColored =
-        scene->GetPointData()->HasArray(vtkRadiosityToneMapping::ColorsArrayName());
-    this->WriteImage(isColored ? this->DrawColors(scene, camera) : this->DrawLight(scene, camera));
+    if (this->FalseColors != NO_FALSE_COLORS) {
+      this->WriteImage(this->DrawFalseColors(scene, camera));
+    } else if (scene->GetPointData()->HasArray(vtkRadiosityToneMapping::ColorsArrayName())) {
+      this->WriteImage(this->DrawColors(scene, camera));
+    } else {
+      this->WriteImage(this->DrawLight(scene, camera));
+    }
   } catch (const std::exception& error) {
     if (this->GetErrorCode() == vtkErrorCode::NoError) {
       this->SetErrorCode(vtkErrorCode::UnknownError);
@@ -135,8 +140,9 @@ void vtkRadiosityImageWriter::PlaceCamera(vtkPolyData* scene, vtkCamera* camera)
     const lambert::UpAxis up = this->UpAxis == UP_GUESSED
                                    ? lambert::GuessUpAxis(mesh)
                                    : static_cast<lambert::UpAxis>(this->UpAxis);
-    const lambert::Camera chosen = lambert::DefaultCamera(
-        mesh, ReadLight(scene), static_cast<double>(this->Size[0]) / this->Size[1], up);
+    const lambert::Camera chosen =
+        lambert::DefaultCamera(mesh, ReadLight(scene, vtkRadiosityArrays::Radiosity()),
+                               static_cast<double>(this->Size[0]) / this->Size[1], up);
     camera->SetPosition(chosen.position.x, chosen.position.y, chosen.position.z);
     camera->SetFocalPoint(chosen.focalPoint.x, chosen.focalPoint.y, chosen.focalPoint.z);
     camera->SetViewUp(chosen.viewUp.x, chosen.viewUp.y, chosen.viewUp.z);
@@ -157,7 +163,7 @@ vtkSmartPointer<vtkImageData> vtkRadiosityImageWriter::DrawLight(vtkPolyData* sc
   }
 
   // Expose for what the picture shows.
-  ReadLight(scene);
+  ReadLight(scene, vtkRadiosityArrays::Radiosity());
   const lambert::ToneMapping toneMapping =
       this->ToneMapping->Adapt(lambert::MeterLight(scene, camera, this->Size[0], this->Size[1]));
 
@@ -166,6 +172,26 @@ vtkSmartPointer<vtkImageData> vtkRadiosityImageWriter::DrawLight(vtkPolyData* sc
       scene, camera, kSupersampling * this->Size[0], kSupersampling * this->Size[1]);
   return lambert::Develop(light, toneMapping, this->ToneMapping->GetKey(), this->DodgingAndBurning,
                           kSupersampling);
+}
+
+vtkSmartPointer<vtkImageData> vtkRadiosityImageWriter::DrawFalseColors(vtkPolyData* scene,
+                                                                       vtkCamera* camera) {
+  // The scale: as wanted, or as the light is.
+  const auto irradiance = ReadLight(scene, vtkRadiosityArrays::Irradiance());
+  const auto& [low, high] = this->FalseColorRange;
+  lambert::FalseColorOptions options;
+  options.unit = this->FalseColors == LUX ? lambert::IlluminanceUnit::Lux
+                                          : lambert::IlluminanceUnit::WattsPerSquareMetre;
+  options.scale = low == 0 && high == 0
+                      ? lambert::ScaleOf(lambert::TriangleMeshFromPolyData(scene), irradiance,
+                                         options.unit, this->FalseColorSteps)
+                      : lambert::MakeIlluminanceScale(low, high, this->FalseColorSteps);
+
+  // The picture.
+  options.isolines = this->Isolines;
+  options.samples = kSupersampling;
+  return lambert::DrawFalseColors(scene, camera, options, kSupersampling * this->Size[0],
+                                  kSupersampling * this->Size[1]);
 }
 
 vtkSmartPointer<vtkImageData> vtkRadiosityImageWriter::DrawColors(vtkPolyData* scene,
@@ -226,5 +252,10 @@ void vtkRadiosityImageWriter::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "UpAxis: " << this->UpAxis << "\n"
      << indent << "ViewAngle: " << this->ViewAngle << "\n"
      << indent << "DodgingAndBurning: " << this->DodgingAndBurning << "\n"
+     << indent << "FalseColors: " << this->FalseColors << "\n"
+     << indent << "FalseColorRange: " << this->FalseColorRange[0] << " to "
+     << this->FalseColorRange[1] << "\n"
+     << indent << "FalseColorSteps: " << this->FalseColorSteps << "\n"
+     << indent << "Isolines: " << this->Isolines << "\n"
      << indent << "Exposure: " << this->GetExposure() << "\n";
 }

@@ -74,6 +74,27 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityImageWriter : public vtkWriter {
   vtkBooleanMacro(DodgingAndBurning, bool);
   ///@}
 
+  ///@{ Irradiance in false colours beside a labelled scale, in place of what the eye sees: in lux,
+  /// or in W/m2 (bands weighted as luminance weighs them). Default off.
+  enum FalseColorUnits { NO_FALSE_COLORS, LUX, WATTS_PER_SQUARE_METRE };
+  vtkSetClampMacro(FalseColors, int, NO_FALSE_COLORS, WATTS_PER_SQUARE_METRE);
+  vtkGetMacro(FalseColors, int);
+  ///@}
+  ///@{ Ends of the scale, in its unit; default (0, 0): from 0 to a round number that all but a
+  /// twentieth of the lit area stays below.
+  vtkSetVector2Macro(FalseColorRange, double);
+  vtkGetVector2Macro(FalseColorRange, double);
+  ///@}
+  ///@{ Steps from label to label of the scale, [0, 100]; default 0: 4 to 6, as is round.
+  vtkSetClampMacro(FalseColorSteps, int, 0, 100);
+  vtkGetMacro(FalseColorSteps, int);
+  ///@}
+  ///@{ Lines of equal illuminance at the labels of the scale. Default off.
+  vtkSetMacro(Isolines, bool);
+  vtkGetMacro(Isolines, bool);
+  vtkBooleanMacro(Isolines, bool);
+  ///@}
+
   /// True where an X display answers, so that VTK can draw.
   static bool IsDisplayAvailable();
 
@@ -88,6 +109,7 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityImageWriter : public vtkWriter {
   void operator=(const vtkRadiosityImageWriter&) = delete;
   void PlaceCamera(vtkPolyData* scene, vtkCamera* camera);
   vtkSmartPointer<vtkImageData> DrawLight(vtkPolyData* scene, vtkCamera* camera);
+  vtkSmartPointer<vtkImageData> DrawFalseColors(vtkPolyData* scene, vtkCamera* camera);
   vtkSmartPointer<vtkImageData> DrawColors(vtkPolyData* scene, vtkCamera* camera);
   void WriteImage(vtkImageData* image);
 
@@ -101,6 +123,10 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityImageWriter : public vtkWriter {
   bool AutomaticCamera = true;
   vtkRadiosityToneMapping* ToneMapping;
   bool DodgingAndBurning = false;
+  int FalseColors = NO_FALSE_COLORS;
+  double FalseColorRange[2] = {0, 0};
+  int FalseColorSteps = 0;
+  bool Isolines = false;
 };
 
 #endif

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/TriangleMesh.h"
@@ -21,16 +22,22 @@ bool Counts(const LuminanceSample& s) {
   return std::isfinite(s.luminance) && s.luminance > 0 && std::isfinite(s.weight) && s.weight > 0;
 }
 
-/// Luminance below which all but `share` of the weight lies; sorts the samples.
-double UpperQuantile(std::vector<LuminanceSample>* samples, double weight, double share) {
-  std::sort(samples->begin(), samples->end(),
-            [](const auto& a, const auto& b) { return a.luminance > b.luminance; });
-  double above = 0;
-  for (const LuminanceSample& s : *samples) {
-    above += s.weight;
-    if (above >= share * weight) return s.luminance;
-  }
-  return 0;
+double WeightOf(const std::vector<LuminanceSample>& samples) {
+  return std::accumulate(samples.begin(), samples.end(), 0.,
+                         [](double sum, const auto& s) { return sum + s.weight; });
+}
+
+/// What is lit at all.
+std::vector<LuminanceSample> LitOf(const std::vector<LuminanceSample>& samples) {
+  std::vector<LuminanceSample> lit;
+  std::copy_if(samples.begin(), samples.end(), std::back_inserter(lit), Counts);
+  double sum = 0;
+  for (const LuminanceSample& s : lit) sum += double(s.weight) * s.luminance;
+  const double black = lit.empty() ? 0 : kBlack * sum / WeightOf(lit);
+  lit.erase(std::remove_if(lit.begin(), lit.end(),
+                           [&](const LuminanceSample& s) { return s.luminance <= black; }),
+            lit.end());
+  return lit;
 }
 
 /// `current` moved towards `target` by half of the stops between them, `most` at most.
@@ -56,27 +63,25 @@ std::vector<LuminanceSample> LuminanceSamples(const TriangleMesh& mesh,
   return samples;
 }
 
-Adaptation MeasureAdaptation(const std::vector<LuminanceSample>& samples) {
-  // What is lit at all.
-  double weight = 0, sum = 0;
-  for (const LuminanceSample& s : samples) {
-    if (!Counts(s)) continue;
-    weight += s.weight;
-    sum += double(s.weight) * s.luminance;
-  }
-  if (!(sum > 0)) return {};
-  const double black = kBlack * sum / weight;
-  std::vector<LuminanceSample> lit;
-  std::copy_if(samples.begin(), samples.end(), std::back_inserter(lit),
-               [&](const LuminanceSample& s) { return Counts(s) && s.luminance > black; });
-
-  // Its log-average (reinhard2002 eq. 1) and its bright end.
-  double litWeight = 0, logSum = 0;
+double LuminanceExceededBy(double share, const std::vector<LuminanceSample>& samples) {
+  std::vector<LuminanceSample> lit = LitOf(samples);
+  const double weight = WeightOf(lit);
+  std::sort(lit.begin(), lit.end(),
+            [](const auto& a, const auto& b) { return a.luminance > b.luminance; });
+  double above = 0;
   for (const LuminanceSample& s : lit) {
-    litWeight += s.weight;
-    logSum += s.weight * std::log(double(s.luminance));
+    above += s.weight;
+    if (above >= share * weight) return s.luminance;
   }
-  return {std::exp(logSum / litWeight), UpperQuantile(&lit, litWeight, kBurntArea)};
+  return 0;
+}
+
+Adaptation MeasureAdaptation(const std::vector<LuminanceSample>& samples) {
+  const std::vector<LuminanceSample> lit = LitOf(samples);
+  if (lit.empty()) return {};
+  double logSum = 0;
+  for (const LuminanceSample& s : lit) logSum += s.weight * std::log(double(s.luminance));
+  return {std::exp(logSum / WeightOf(lit)), LuminanceExceededBy(kBurntArea, samples)};
 }
 
 SteadyAdaptation::SteadyAdaptation(double mostStops) : mostStops_(mostStops) {

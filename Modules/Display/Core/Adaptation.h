@@ -21,6 +21,10 @@ struct LuminanceSample {
 std::vector<LuminanceSample> LuminanceSamples(const TriangleMesh& mesh,
                                               const std::vector<Spectrum>& radiosity);
 
+/// Luminance that `share` of the lit weight is brighter than; 0 where nothing is lit. What counts
+/// as lit is told below.
+double LuminanceExceededBy(double share, const std::vector<LuminanceSample>& samples);
+
 /// Luminance, in the unit of the samples; both 0 where nothing is lit.
 struct Adaptation {
   double average = 0;  ///< log-average of what is lit (reinhard2002 eq. 1)
