@@ -144,6 +144,33 @@ void AddFalseColorOptions(CLI::App* command, SolveArguments* arguments) {
       ->needs(colors);
 }
 
+/// Which surfaces a light map takes.
+void AddRepresentationOptions(CLI::App* command, CLI::Option* lightMap, SolveArguments* arguments) {
+  command
+      ->add_option_function<int64_t>(
+          "--introduced", [=](int64_t most) { arguments->introducedTriangles = most; },
+          "Light map: triangles that refinement may add to surfaces lit by their points")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(lightMap);
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--represent",
+          [=](const std::vector<std::string>& wanted) {
+            for (const std::string& text : wanted) {
+              const size_t colon = text.rfind(':');
+              const std::string kind = colon == std::string::npos ? "" : text.substr(colon + 1);
+              if (kind != "points" && kind != "lightmap") {
+                throw CLI::ValidationError("--represent", "needs MATERIAL:points|lightmap");
+              }
+              arguments->representations[text.substr(0, colon)] =
+                  kind == "points" ? Representation::Points : Representation::LightMap;
+            }
+          },
+          "MATERIAL:points|lightmap, whatever refinement did to it")
+      ->allow_extra_args(false)
+      ->needs(lightMap);
+}
+
 void RequirePngName(const std::string& image) {
   const std::string ending = std::filesystem::path(image).extension().string();
   if (!image.empty() && ending != ".png" && ending != ".PNG") {
@@ -293,6 +320,7 @@ void SolveArguments::AddTo(CLI::App* command) {
   CLI::Option* map = command->add_option(
       "--lightmap", lightMap, "Mesh with texture coordinates, .vtp, its pages beside it as .hdr");
   for (CLI::Option* option : AddAtlasOptions(command, &atlas)) option->needs(map);
+  AddRepresentationOptions(command, map, this);
   command->add_flag("--both-sides", bothSides, "PLY: keep both lit sides of a face");
   command->add_option("--report", report, "Account of the run, JSON");
   command
@@ -399,6 +427,8 @@ RadiosityRunOptions SolveArguments::RunOptions() const {
   options.timeLimit = time;
   if (!sky.empty()) options.sky = ToSpectrum(sky);
   if (!lightMap.empty()) options.atlas = atlas;
+  options.introducedTriangles = introducedTriangles;
+  options.representations = representations;
   // A picture costs a GL context and four samples a pixel: some 2 s a megapixel drawn in software.
   const auto pixels = ImageSize();
   if (!image.empty()) options.outputSeconds += 0.5 + 2e-6 * pixels[0] * pixels[1];

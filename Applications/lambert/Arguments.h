@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,6 +49,8 @@ struct SolveArguments {
   std::vector<float> sky;
   std::string probe, probeOutput, image, size = "960x720", camera, up = "auto", report, lightMap;
   AtlasOptions atlas;
+  std::optional<int64_t> introducedTriangles;
+  std::map<std::string, Representation> representations;
   bool probeGather = false, bothSides = false;
   ToneMappingOptions tone;
   bool dodgingAndBurning = false;

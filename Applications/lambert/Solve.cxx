@@ -85,7 +85,11 @@ void DrawLightMap(const SolveArguments& arguments, const ProgressCallback& progr
   display->Begin("light map");
   try {
     run->DrawLightMap(progress);
-    WriteLightMap(run->Atlas(), *run->DrawnLightMap(), run->GetScene(), arguments.lightMap);
+    if (run->Represented()) {
+      WriteRepresentedScene(*run->Represented(), run->GetScene(), arguments.lightMap);
+    } else {
+      WriteLightMap(run->Atlas(), *run->DrawnLightMap(), run->GetScene(), arguments.lightMap);
+    }
   } catch (const Cancelled&) {
     display->Say("Interrupted: no light map is written.");
   }
