@@ -92,6 +92,85 @@ std::vector<CLI::Option*> AddAtlasOptions(CLI::App* command, AtlasOptions* atlas
           ->capture_default_str()};
 }
 
+/// How light becomes the colours of pictures and of PLY.
+void AddToneOptions(CLI::App* command, ToneMappingOptions* tone, bool* dodgingAndBurning) {
+  const std::map<std::string, ToneCurve> curves{{"photographic", ToneCurve::Photographic},
+                                                {"local", ToneCurve::Photographic},
+                                                {"linear", ToneCurve::Linear},
+                                                {"filmic", ToneCurve::Filmic}};
+  command
+      ->add_option_function<std::string>(
+          "--tone",
+          [=](const std::string& name) {
+            tone->curve = curves.at(name);
+            *dodgingAndBurning = name == "local";
+          },
+          "How luminance is compressed; local: pictures expose every place for its surround")
+      ->check(CLI::IsMember({"photographic", "local", "linear", "filmic"}))
+      ->default_str("photographic");
+  command->add_option("--key", tone->key, "Display luminance of the mean of what is shown, (0, 1]")
+      ->check(Within(1e-6, 1, "from 1e-6 to 1"))
+      ->capture_default_str();
+  command->add_option("--exposure", tone->exposure, "Stops (EV) brighter or darker")
+      ->check(Within(-100, 100, "from -100 to 100"))
+      ->capture_default_str();
+  command
+      ->add_option_function<double>(
+          "--ev", [tone](double ev) { tone->exposureValue = ev; },
+          "Exposure value at ISO 100 of a camera that does not adapt to the light")
+      ->check(Within(-100, 100, "from -100 to 100"));
+  command->add_option("--white", tone->white, "Keyed luminance of full white; 0: by the curve")
+      ->check(NotNegative())
+      ->capture_default_str();
+}
+
+/// Illuminance in place of what the eye sees.
+void AddFalseColorOptions(CLI::App* command, SolveArguments* arguments) {
+  CLI::Option* colors = command
+                            ->add_option("--false-colors", arguments->falseColors,
+                                         "Picture of illuminance beside a scale: lux, W/m2")
+                            ->check(CLI::IsMember({"lux", "W/m2"}));
+  command->add_option("--range", arguments->falseColorRange, "Ends of the scale")
+      ->expected(2)
+      ->check(NotNegative())
+      ->needs(colors);
+  command
+      ->add_option("--steps", arguments->falseColorSteps,
+                   "Steps of the scale; 0: 4 to 6, as is round")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str()
+      ->needs(colors);
+  command->add_flag("--isolines", arguments->isolines, "Lines of equal illuminance at its labels")
+      ->needs(colors);
+}
+
+/// Which surfaces a light map takes.
+void AddRepresentationOptions(CLI::App* command, CLI::Option* lightMap, SolveArguments* arguments) {
+  command
+      ->add_option_function<int64_t>(
+          "--introduced", [=](int64_t most) { arguments->introducedTriangles = most; },
+          "Light map: triangles that refinement may add to surfaces lit by their points")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(lightMap);
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--represent",
+          [=](const std::vector<std::string>& wanted) {
+            for (const std::string& text : wanted) {
+              const size_t colon = text.rfind(':');
+              const std::string kind = colon == std::string::npos ? "" : text.substr(colon + 1);
+              if (kind != "points" && kind != "lightmap") {
+                throw CLI::ValidationError("--represent", "needs MATERIAL:points|lightmap");
+              }
+              arguments->representations[text.substr(0, colon)] =
+                  kind == "points" ? Representation::Points : Representation::LightMap;
+            }
+          },
+          "MATERIAL:points|lightmap, whatever refinement did to it")
+      ->allow_extra_args(false)
+      ->needs(lightMap);
+}
+
 void RequirePngName(const std::string& image) {
   const std::string ending = std::filesystem::path(image).extension().string();
   if (!image.empty() && ending != ".png" && ending != ".PNG") {
@@ -233,12 +312,15 @@ void SolveArguments::AddTo(CLI::App* command) {
   command->add_option("--image", image, "PNG picture (needs an X display, xvfb-run will do)");
   command->add_option("--size", size, "Size of the picture, WxH pixels")->capture_default_str();
   command->add_option("--camera", camera, "px,py,pz,fx,fy,fz[,fov]: eye, point looked at, degrees");
-  command->add_option("--exposure", exposure, "Stops (EV) brighter or darker")
-      ->check(Within(-100, 100, "from -100 to 100"))
+  command->add_option("--up", up, "What is up in the picture: auto, x, y, z")
+      ->check(CLI::IsMember({"auto", "x", "y", "z"}))
       ->capture_default_str();
+  AddToneOptions(command, &tone, &dodgingAndBurning);
+  AddFalseColorOptions(command, this);
   CLI::Option* map = command->add_option(
       "--lightmap", lightMap, "Mesh with texture coordinates, .vtp, its pages beside it as .hdr");
   for (CLI::Option* option : AddAtlasOptions(command, &atlas)) option->needs(map);
+  AddRepresentationOptions(command, map, this);
   command->add_flag("--both-sides", bothSides, "PLY: keep both lit sides of a face");
   command->add_option("--report", report, "Account of the run, JSON");
   command
@@ -258,6 +340,9 @@ void SolveArguments::Check() const {
     throw CLI::ValidationError("--probe", "--probe and --probe-output belong together");
   }
   RequirePngName(image);
+  if (!falseColorRange.empty() && !(falseColorRange[1] > falseColorRange[0])) {
+    throw CLI::ValidationError("--range", "goes from a number up to a larger one");
+  }
   FilesOfRun files(scene.files);
   files.Add("--probe", probe, false);
   files.Add("--output", output, true);
@@ -274,7 +359,7 @@ void SolveArguments::Check() const {
     }
   }
   ImageSize();
-  ImageCamera();
+  ImageCamera(UpAxis::Y);
 }
 
 void SolveArguments::RequireOptionsOfMethod() const {
@@ -298,7 +383,18 @@ std::array<int, 2> SolveArguments::ImageSize() const {
   return {int(numbers[0]), int(numbers[1])};
 }
 
-std::optional<Camera> SolveArguments::ImageCamera() const {
+UpAxis SolveArguments::ImageUp(const TriangleMesh& mesh) const {
+  static const std::map<std::string, UpAxis> kAxes{
+      {"x", UpAxis::X}, {"y", UpAxis::Y}, {"z", UpAxis::Z}};
+  if (up != "auto") return kAxes.at(up);
+  const bool allSayIt = std::all_of(scene.files.begin(), scene.files.end(), [](const auto& file) {
+    const std::string ending = std::filesystem::path(file).extension().string();
+    return ending == ".gltf" || ending == ".glb";
+  });
+  return allSayIt ? UpAxis::Y : GuessUpAxis(mesh);
+}
+
+std::optional<Camera> SolveArguments::ImageCamera(UpAxis imageUp) const {
   if (camera.empty()) return {};
   const std::vector<double> n = ParseNumbers(camera, ',');
   if (n.size() != 6 && n.size() != 7) {
@@ -313,8 +409,9 @@ std::optional<Camera> SolveArguments::ImageCamera() const {
     throw CLI::ValidationError(
         "--camera", "needs two different points and a field of view of 0 to 180 degrees");
   }
-  if (std::abs(forward.y) > 0.999)
-    view.viewUp = {0, 0, -1};  // Straight up or down: -z is up in the picture.
+  // Straight up or down what lies ahead of a y-up camera, -z, is up in the picture.
+  const bool isSteep = std::abs(ToYUp(forward, imageUp).y) > 0.999;
+  view.viewUp = FromYUp(isSteep ? Vec3d(0, 0, -1) : Vec3d(0, 1, 0), imageUp);
   return view;
 }
 
@@ -330,6 +427,8 @@ RadiosityRunOptions SolveArguments::RunOptions() const {
   options.timeLimit = time;
   if (!sky.empty()) options.sky = ToSpectrum(sky);
   if (!lightMap.empty()) options.atlas = atlas;
+  options.introducedTriangles = introducedTriangles;
+  options.representations = representations;
   // A picture costs a GL context and four samples a pixel: some 2 s a megapixel drawn in software.
   const auto pixels = ImageSize();
   if (!image.empty()) options.outputSeconds += 0.5 + 2e-6 * pixels[0] * pixels[1];

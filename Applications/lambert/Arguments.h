@@ -2,11 +2,14 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "Atlas/Core/RadiosityAtlas.h"
+#include "Display/Core/ToneMapping.h"
+#include "Display/Core/UpAxis.h"
 #include "Engine/RadiosityRun.h"
 #include "Scene/Core/Scene.h"
 
@@ -44,10 +47,17 @@ struct SolveArguments {
   double time = 0;
   int threads = 0;
   std::vector<float> sky;
-  std::string probe, probeOutput, image, size = "960x720", camera, report, lightMap;
+  std::string probe, probeOutput, image, size = "960x720", camera, up = "auto", report, lightMap;
   AtlasOptions atlas;
+  std::optional<int64_t> introducedTriangles;
+  std::map<std::string, Representation> representations;
   bool probeGather = false, bothSides = false;
-  double exposure = 0;
+  ToneMappingOptions tone;
+  bool dodgingAndBurning = false;
+  std::string falseColors;
+  std::vector<double> falseColorRange;
+  int falseColorSteps = 0;
+  bool isolines = false;
   ProgressStyle progress = ProgressStyle::Auto;
   int verifyPoints = 0;
 
@@ -56,8 +66,10 @@ struct SolveArguments {
   void Check() const;
   /// Width and height in pixels.
   std::array<int, 2> ImageSize() const;
+  /// What is up in pictures of `mesh`: as asked for, y where all files are glTF, else guessed.
+  UpAxis ImageUp(const TriangleMesh& mesh) const;
   /// The camera that was asked for, if any.
-  std::optional<Camera> ImageCamera() const;
+  std::optional<Camera> ImageCamera(UpAxis imageUp) const;
   RadiosityRunOptions RunOptions() const;
 
  private:

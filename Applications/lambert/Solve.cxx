@@ -9,6 +9,7 @@
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Timer.h"
 #include "Display/vtkRadiosityImageWriter.h"
+#include "Display/vtkRadiosityToneMapping.h"
 #include "Engine/LightMapFile.h"
 #include "Engine/ProbeFile.h"
 #include "Engine/RunReport.h"
@@ -38,12 +39,25 @@ void WriteImage(const SolveArguments& arguments, const RadiosityRun& run) {
   const auto size = arguments.ImageSize();
   writer->SetInputData(data);
   writer->SetSize(size[0], size[1]);
-  writer->SetExposure(arguments.exposure);
+  writer->GetToneMapping()->SetOptions(arguments.tone);
+  writer->SetDodgingAndBurning(arguments.dodgingAndBurning);
+  if (!arguments.falseColors.empty()) {
+    writer->SetFalseColors(arguments.falseColors == "lux"
+                               ? vtkRadiosityImageWriter::LUX
+                               : vtkRadiosityImageWriter::WATTS_PER_SQUARE_METRE);
+    writer->SetFalseColorSteps(arguments.falseColorSteps);
+    writer->SetIsolines(arguments.isolines);
+  }
+  if (!arguments.falseColorRange.empty()) {
+    writer->SetFalseColorRange(arguments.falseColorRange[0], arguments.falseColorRange[1]);
+  }
   writer->SetFileName(arguments.image.c_str());
 
   // The eye: as asked for, the file's, or one that the writer chooses.
-  const std::optional<Camera> camera =
-      arguments.ImageCamera() ? arguments.ImageCamera() : run.GetScene().camera;
+  const UpAxis axis = arguments.ImageUp(run.GetScene().mesh);
+  const std::optional<Camera> asked = arguments.ImageCamera(axis);
+  const std::optional<Camera> camera = asked ? asked : run.GetScene().camera;
+  writer->SetUpAxis(static_cast<int>(axis));
   if (camera) {
     const Vec3d &p = camera->position, &f = camera->focalPoint, &up = camera->viewUp;
     writer->SetCamera(p.x, p.y, p.z, f.x, f.y, f.z);
@@ -71,7 +85,11 @@ void DrawLightMap(const SolveArguments& arguments, const ProgressCallback& progr
   display->Begin("light map");
   try {
     run->DrawLightMap(progress);
-    WriteLightMap(run->Atlas(), *run->DrawnLightMap(), run->GetScene(), arguments.lightMap);
+    if (run->Represented()) {
+      WriteRepresentedScene(*run->Represented(), run->GetScene(), arguments.lightMap);
+    } else {
+      WriteLightMap(run->Atlas(), *run->DrawnLightMap(), run->GetScene(), arguments.lightMap);
+    }
   } catch (const Cancelled&) {
     display->Say("Interrupted: no light map is written.");
   }
@@ -160,7 +178,7 @@ int Solve(const SolveArguments& arguments) {
 
   // Outputs.
   Stage("write", &display, &run, [&] {
-    WriteSolution(run.Solution(), run.GetScene(), arguments.output, arguments.exposure,
+    WriteSolution(run.Solution(), run.GetScene(), arguments.output, arguments.tone,
                   arguments.bothSides);
   });
   if (!arguments.probe.empty()) {

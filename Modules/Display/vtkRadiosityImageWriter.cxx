@@ -3,6 +3,8 @@
 #include "Common/Core/Error.h"
 #include "Display/Core/DefaultCamera.h"
 #include "Display/Core/ToneMapping.h"
+#include "FalseColorPicture.h"
+#include "LightPicture.h"
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkErrorCode.h"
@@ -27,8 +29,8 @@
 #include <X11/Xlib.h>
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
+#include <string>
 
 vtkStandardNewMacro(vtkRadiosityImageWriter);
 
@@ -37,12 +39,12 @@ namespace {
 constexpr int kSupersampling = 2;
 constexpr int kMaximumSize = 8192;
 
-std::vector<lambert::Spectrum> ReadLight(vtkPolyData* data) {
+std::vector<lambert::Spectrum> ReadLight(vtkPolyData* data, const char* name) {
   std::vector<lambert::Spectrum> light(static_cast<size_t>(data->GetNumberOfPoints()));
-  vtkDataArray* array = data->GetPointData()->GetArray(vtkRadiosityArrays::Radiosity());
+  vtkDataArray* array = data->GetPointData()->GetArray(name);
   if (!array || array->GetNumberOfComponents() != 3) {
-    throw lambert::Error(
-        "The data has no point array Radiosity of three components; run a radiosity method first.");
+    throw lambert::Error("The data has no point array " + std::string(name) +
+                         " of three components; run a radiosity method first.");
   }
   for (size_t point = 0; point < light.size(); ++point) {
     double tuple[3];
@@ -51,73 +53,21 @@ std::vector<lambert::Spectrum> ReadLight(vtkPolyData* data) {
   }
   return light;
 }
-
-/// Metering: luminance as an 8-bit logarithm, 0 for black and for lamps, drawn small.
-constexpr const char* kLogCodes = "LogLuminance";
-constexpr double kStops = 24,
-                 kLowestStop = -12;  ///< of the mean luminance; a code is a tenth of a stop
-constexpr int kMeteringShrink = 4;
-
-vtkSmartPointer<vtkUnsignedCharArray> PointColors(const char* name, vtkIdType points) {
-  auto colors = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  colors->SetName(name);
-  colors->SetNumberOfComponents(3);
-  colors->SetNumberOfTuples(points);
-  return colors;
-}
-
-/// Adds the codes and returns the mean luminance that they are relative to.
-double AddLogCodes(vtkPolyData* data) {
-  const std::vector<lambert::LuminanceSample> samples =
-      lambert::LuminanceSamples(lambert::TriangleMeshFromPolyData(data), ReadLight(data));
-  double sum = 0, weight = 0;
-  for (const lambert::LuminanceSample& s : samples) {
-    sum += double(s.weight) * s.luminance;
-    weight += s.weight;
-  }
-  const auto codes = PointColors(kLogCodes, data->GetNumberOfPoints());
-  for (size_t point = 0; point < samples.size(); ++point) {
-    const lambert::LuminanceSample& s = samples[point];
-    const bool counts = s.weight > 0 && s.luminance > 0;
-    const double stop = counts ? std::log2(s.luminance * weight / sum) : kLowestStop;
-    const double code = counts ? 1 + 254 * (stop - kLowestStop) / kStops : 0;
-    const auto byte = static_cast<unsigned char>(std::clamp(code, 0., 255.));
-    const unsigned char tuple[3] = {byte, byte, byte};
-    codes->SetTypedTuple(static_cast<vtkIdType>(point), tuple);
-  }
-  data->GetPointData()->AddArray(codes);
-  return weight > 0 ? sum / weight : 0;
-}
-
-/// A sample a pixel that shows a lit surface.
-std::vector<lambert::LuminanceSample> SamplesFromLogCodes(vtkImageData* image, double mean) {
-  std::vector<lambert::LuminanceSample> samples;
-  const auto* codes = static_cast<const unsigned char*>(image->GetScalarPointer());
-  for (vtkIdType pixel = 0; pixel < image->GetNumberOfPoints(); ++pixel) {
-    const unsigned char code = codes[pixel * image->GetNumberOfScalarComponents()];
-    if (code > 0) {
-      const double stop = kLowestStop + kStops * (code - 1) / 254;
-      samples.push_back({static_cast<float>(mean * std::exp2(stop)), 1});
-    }
-  }
-  return samples;
-}
-
-void AddColors(vtkPolyData* data, const lambert::ToneMapping& toneMapping) {
-  const char* name = vtkRadiosityToneMapping::ColorsArrayName();
-  const auto colors = PointColors(name, data->GetNumberOfPoints());
-  const std::vector<lambert::Spectrum> light = ReadLight(data);
-  for (size_t point = 0; point < light.size(); ++point) {
-    colors->SetTypedTuple(static_cast<vtkIdType>(point),
-                          toneMapping.ApplyToBytes(light[point]).data());
-  }
-  data->GetPointData()->AddArray(colors);
-}
 }  // namespace
 
-vtkRadiosityImageWriter::vtkRadiosityImageWriter() = default;
+vtkRadiosityImageWriter::vtkRadiosityImageWriter() : ToneMapping(vtkRadiosityToneMapping::New()) {}
 
-vtkRadiosityImageWriter::~vtkRadiosityImageWriter() { this->SetFileName(nullptr); }
+vtkRadiosityImageWriter::~vtkRadiosityImageWriter() {
+  this->SetFileName(nullptr);
+  this->ToneMapping->Delete();
+}
+
+void vtkRadiosityImageWriter::SetExposure(double exposure) {
+  this->ToneMapping->SetExposure(exposure);
+  this->Modified();
+}
+
+double vtkRadiosityImageWriter::GetExposure() { return this->ToneMapping->GetExposure(); }
 
 bool vtkRadiosityImageWriter::IsDisplayAvailable() {
   // The connection stays open: an X server resets, and refuses for a moment, when its last client
@@ -165,22 +115,17 @@ void vtkRadiosityImageWriter::WriteData() {
           "Drawing a picture needs an X display and none answers: run under xvfb-run.");
     }
 
-    // Expose for what the picture shows, unless the points are coloured already.
-    vtkNew<vtkPolyData> colored;
-    colored->ShallowCopy(vtkPolyData::SafeDownCast(this->GetInput()));
-    if (!colored->GetPointData()->GetArray(vtkRadiosityToneMapping::ColorsArrayName())) {
-      const double mean = AddLogCodes(colored);
-      const auto metered =
-          this->Draw(colored, kLogCodes, std::max(1, this->Size[0] / kMeteringShrink),
-                     std::max(1, this->Size[1] / kMeteringShrink));
-      lambert::ToneMappingOptions options;
-      options.exposure = this->Exposure;
-      AddColors(colored, lambert::ToneMapping(SamplesFromLogCodes(metered, mean), options));
-    }
-
     // Draw.
-    this->WriteImage(this->Draw(colored, vtkRadiosityToneMapping::ColorsArrayName(),
-                                kSupersampling * this->Size[0], kSupersampling * this->Size[1]));
+    vtkPolyData* scene = vtkPolyData::SafeDownCast(this->GetInput());
+    vtkNew<vtkCamera> camera;
+    this->PlaceCamera(scene, camera);
+    if (this->FalseColors != NO_FALSE_COLORS) {
+      this->WriteImage(this->DrawFalseColors(scene, camera));
+    } else if (scene->GetPointData()->HasArray(vtkRadiosityToneMapping::ColorsArrayName())) {
+      this->WriteImage(this->DrawColors(scene, camera));
+    } else {
+      this->WriteImage(this->DrawLight(scene, camera));
+    }
   } catch (const std::exception& error) {
     if (this->GetErrorCode() == vtkErrorCode::NoError) {
       this->SetErrorCode(vtkErrorCode::UnknownError);
@@ -189,12 +134,15 @@ void vtkRadiosityImageWriter::WriteData() {
   }
 }
 
-void vtkRadiosityImageWriter::PlaceCamera(vtkRenderer* renderer, vtkPolyData* colored) {
-  vtkCamera* camera = renderer->GetActiveCamera();
+void vtkRadiosityImageWriter::PlaceCamera(vtkPolyData* scene, vtkCamera* camera) {
   if (this->AutomaticCamera) {
+    const lambert::TriangleMesh mesh = lambert::TriangleMeshFromPolyData(scene);
+    const lambert::UpAxis up = this->UpAxis == UP_GUESSED
+                                   ? lambert::GuessUpAxis(mesh)
+                                   : static_cast<lambert::UpAxis>(this->UpAxis);
     const lambert::Camera chosen =
-        lambert::DefaultCamera(lambert::TriangleMeshFromPolyData(colored), ReadLight(colored),
-                               static_cast<double>(this->Size[0]) / this->Size[1]);
+        lambert::DefaultCamera(mesh, ReadLight(scene, vtkRadiosityArrays::Radiosity()),
+                               static_cast<double>(this->Size[0]) / this->Size[1], up);
     camera->SetPosition(chosen.position.x, chosen.position.y, chosen.position.z);
     camera->SetFocalPoint(chosen.focalPoint.x, chosen.focalPoint.y, chosen.focalPoint.z);
     camera->SetViewUp(chosen.viewUp.x, chosen.viewUp.y, chosen.viewUp.z);
@@ -205,16 +153,54 @@ void vtkRadiosityImageWriter::PlaceCamera(vtkRenderer* renderer, vtkPolyData* co
     camera->SetViewUp(this->ViewUp);
     camera->SetViewAngle(this->ViewAngle);
   }
-  renderer->ResetCameraClippingRange();
 }
 
-vtkSmartPointer<vtkImageData> vtkRadiosityImageWriter::Draw(vtkPolyData* data, const char* colors,
-                                                            int width, int height) {
-  // The light as it is: vertex colours, no shading, front faces only.
+vtkSmartPointer<vtkImageData> vtkRadiosityImageWriter::DrawLight(vtkPolyData* scene,
+                                                                 vtkCamera* camera) {
+  if (this->DodgingAndBurning &&
+      this->ToneMapping->GetCurve() != vtkRadiosityToneMapping::PHOTOGRAPHIC) {
+    throw lambert::Error("Dodging and burning belongs to the photographic curve.");
+  }
+
+  // Expose for what the picture shows.
+  ReadLight(scene, vtkRadiosityArrays::Radiosity());
+  const lambert::ToneMapping toneMapping =
+      this->ToneMapping->Adapt(lambert::MeterLight(scene, camera, this->Size[0], this->Size[1]));
+
+  // Draw the light, and develop it.
+  const lambert::LightImage light = lambert::DrawLight(
+      scene, camera, kSupersampling * this->Size[0], kSupersampling * this->Size[1]);
+  return lambert::Develop(light, toneMapping, this->ToneMapping->GetKey(), this->DodgingAndBurning,
+                          kSupersampling);
+}
+
+vtkSmartPointer<vtkImageData> vtkRadiosityImageWriter::DrawFalseColors(vtkPolyData* scene,
+                                                                       vtkCamera* camera) {
+  // The scale: as wanted, or as the light is.
+  const auto irradiance = ReadLight(scene, vtkRadiosityArrays::Irradiance());
+  const auto& [low, high] = this->FalseColorRange;
+  lambert::FalseColorOptions options;
+  options.unit = this->FalseColors == LUX ? lambert::IlluminanceUnit::Lux
+                                          : lambert::IlluminanceUnit::WattsPerSquareMetre;
+  options.scale = low == 0 && high == 0
+                      ? lambert::ScaleOf(lambert::TriangleMeshFromPolyData(scene), irradiance,
+                                         options.unit, this->FalseColorSteps)
+                      : lambert::MakeIlluminanceScale(low, high, this->FalseColorSteps);
+
+  // The picture.
+  options.isolines = this->Isolines;
+  options.samples = kSupersampling;
+  return lambert::DrawFalseColors(scene, camera, options, kSupersampling * this->Size[0],
+                                  kSupersampling * this->Size[1]);
+}
+
+vtkSmartPointer<vtkImageData> vtkRadiosityImageWriter::DrawColors(vtkPolyData* scene,
+                                                                  vtkCamera* camera) {
+  // Colours as they are: no shading, front faces only.
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
+  mapper->SetInputData(scene);
   mapper->SetScalarModeToUsePointFieldData();
-  mapper->SelectColorArray(colors);
+  mapper->SelectColorArray(vtkRadiosityToneMapping::ColorsArrayName());
   mapper->SetColorModeToDirectScalars();
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
@@ -227,9 +213,10 @@ vtkSmartPointer<vtkImageData> vtkRadiosityImageWriter::Draw(vtkPolyData* data, c
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(0);
-  window->SetSize(width, height);
+  window->SetSize(kSupersampling * this->Size[0], kSupersampling * this->Size[1]);
   window->AddRenderer(renderer);
-  this->PlaceCamera(renderer, data);
+  renderer->SetActiveCamera(camera);
+  renderer->ResetCameraClippingRange();
   window->Render();
   vtkNew<vtkWindowToImageFilter> grab;
   grab->SetInput(window);
@@ -262,6 +249,13 @@ void vtkRadiosityImageWriter::PrintSelf(ostream& os, vtkIndent indent) {
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n"
      << indent << "Size: " << this->Size[0] << " x " << this->Size[1] << "\n"
      << indent << "AutomaticCamera: " << this->AutomaticCamera << "\n"
+     << indent << "UpAxis: " << this->UpAxis << "\n"
      << indent << "ViewAngle: " << this->ViewAngle << "\n"
-     << indent << "Exposure: " << this->Exposure << "\n";
+     << indent << "DodgingAndBurning: " << this->DodgingAndBurning << "\n"
+     << indent << "FalseColors: " << this->FalseColors << "\n"
+     << indent << "FalseColorRange: " << this->FalseColorRange[0] << " to "
+     << this->FalseColorRange[1] << "\n"
+     << indent << "FalseColorSteps: " << this->FalseColorSteps << "\n"
+     << indent << "Isolines: " << this->Isolines << "\n"
+     << indent << "Exposure: " << this->GetExposure() << "\n";
 }

@@ -12,6 +12,10 @@
 #include "vtkTriangleMeshAdapter.h"
 #include "vtkUnsignedCharArray.h"
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
 vtkStandardNewMacro(vtkRadiosityToneMapping);
 
 vtkRadiosityToneMapping::vtkRadiosityToneMapping() : Options(new lambert::ToneMappingOptions) {}
@@ -30,6 +34,50 @@ lambertOptionMacro(Key, key);
 lambertOptionMacro(Exposure, exposure);
 lambertOptionMacro(White, white);
 #undef lambertOptionMacro
+
+void vtkRadiosityToneMapping::SetCurve(int curve) {
+  const auto wanted = static_cast<lambert::ToneCurve>(std::clamp<int>(curve, PHOTOGRAPHIC, FILMIC));
+  if (this->Options->curve != wanted) {
+    this->Options->curve = wanted;
+    this->Modified();
+  }
+}
+
+int vtkRadiosityToneMapping::GetCurve() { return static_cast<int>(this->Options->curve); }
+
+void vtkRadiosityToneMapping::SetExposureValue(double exposureValue) {
+  std::optional<double> wanted;
+  if (!std::isnan(exposureValue)) {
+    wanted = exposureValue;
+  }
+  if (this->Options->exposureValue != wanted) {
+    this->Options->exposureValue = wanted;
+    this->Modified();
+  }
+}
+
+double vtkRadiosityToneMapping::GetExposureValue() {
+  return this->Options->exposureValue.value_or(std::nan(""));
+}
+
+void vtkRadiosityToneMapping::SetOptions(const lambert::ToneMappingOptions& options) {
+  *this->Options = options;
+  this->Modified();
+}
+
+void vtkRadiosityToneMapping::SetSteadyStops(double stops) {
+  this->SteadyStops = std::isfinite(stops) ? std::max(0., stops) : 0;
+  this->Steady.reset(this->SteadyStops > 0 ? new lambert::SteadyAdaptation(this->SteadyStops)
+                                           : nullptr);
+  this->Modified();
+}
+
+lambert::ToneMapping vtkRadiosityToneMapping::Adapt(
+    const std::vector<lambert::LuminanceSample>& samples) {
+  const lambert::Adaptation measured = lambert::MeasureAdaptation(samples);
+  return lambert::ToneMapping(this->Steady ? this->Steady->Follow(measured) : measured,
+                              *this->Options);
+}
 
 namespace {
 std::vector<lambert::Spectrum> PointLight(vtkPolyData* input) {
@@ -65,7 +113,7 @@ int vtkRadiosityToneMapping::RequestData(vtkInformation*, vtkInformationVector**
     // Adapt to the light that the scene reflects.
     const std::vector<lambert::Spectrum> light = PointLight(input);
     const lambert::TriangleMesh mesh = lambert::TriangleMeshFromPolyData(input);
-    const lambert::ToneMapping toneMapping(lambert::LuminanceSamples(mesh, light), *this->Options);
+    const lambert::ToneMapping toneMapping = this->Adapt(lambert::LuminanceSamples(mesh, light));
 
     // Colour every point.
     vtkNew<vtkUnsignedCharArray> colors;
@@ -88,5 +136,8 @@ void vtkRadiosityToneMapping::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Key: " << this->Options->key << "\n"
      << indent << "Exposure: " << this->Options->exposure << "\n"
-     << indent << "White: " << this->Options->white << "\n";
+     << indent << "White: " << this->Options->white << "\n"
+     << indent << "Curve: " << this->GetCurve() << "\n"
+     << indent << "ExposureValue: " << this->GetExposureValue() << "\n"
+     << indent << "SteadyStops: " << this->SteadyStops << "\n";
 }

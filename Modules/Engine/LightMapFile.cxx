@@ -21,20 +21,20 @@ std::vector<std::string> LightMapPageNames(const std::string& fileName, int page
   return names;
 }
 
-void WriteLightMap(const RadiosityAtlas& atlas, const LightMap& map, const Scene& scene,
-                   const std::string& fileName) {
-  // The mesh.
-  vtkNew<vtkPolyData> mesh;
-  PolyDataFromAtlas(atlas, scene, mesh);
+namespace {
+void WriteMesh(vtkPolyData* mesh, const std::string& fileName) {
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(mesh);
   writer->SetFileName(fileName.c_str());
   if (!writer->Write()) {
     throw Error("The light map " + fileName + " could not be written.");
   }
+}
 
-  // Its pages, the uppermost row first.
-  const std::vector<std::string> names = LightMapPageNames(fileName, atlas.pages);
+/// The uppermost row first.
+void WritePages(const LightMap& map, const std::string& fileName) {
+  const std::vector<std::string> names =
+      LightMapPageNames(fileName, static_cast<int>(map.pages.size()));
   const size_t size = static_cast<size_t>(map.pageSize);
   std::vector<float> rows(size * size * 3);
   for (size_t page = 0; page < names.size(); ++page) {
@@ -50,5 +50,22 @@ void WriteLightMap(const RadiosityAtlas& atlas, const LightMap& map, const Scene
       throw Error("The page " + names[page] + " could not be written.");
     }
   }
+}
+}  // namespace
+
+void WriteLightMap(const RadiosityAtlas& atlas, const LightMap& map, const Scene& scene,
+                   const std::string& fileName) {
+  vtkNew<vtkPolyData> mesh;
+  PolyDataFromAtlas(atlas, scene, mesh);
+  WriteMesh(mesh, fileName);
+  WritePages(map, fileName);
+}
+
+void WriteRepresentedScene(const RepresentedScene& represented, const Scene& scene,
+                           const std::string& fileName) {
+  vtkNew<vtkPolyData> mesh;
+  PolyDataFromRepresentedScene(represented, scene, mesh);
+  WriteMesh(mesh, fileName);
+  WritePages(represented.map, fileName);
 }
 }  // namespace lambert

@@ -4,6 +4,7 @@
 #define LightMapFile_h
 
 #include "Atlas/Core/LightMap.h"
+#include "Atlas/Core/SurfaceRepresentation.h"
 #include "Scene/Core/Scene.h"
 #include "lambertEngineModule.h"
 
@@ -20,6 +21,11 @@ LAMBERTENGINE_EXPORT std::vector<std::string> LightMapPageNames(const std::strin
 /// where a file cannot be written.
 LAMBERTENGINE_EXPORT void WriteLightMap(const RadiosityAtlas& atlas, const LightMap& map,
                                         const Scene& scene, const std::string& fileName);
+
+/// The same of a scene whose surfaces are lit by their points or by the light map: NAME.vtp has
+/// Irradiance at its points, and LightMapTCoords of (-1, -1) where these light.
+LAMBERTENGINE_EXPORT void WriteRepresentedScene(const RepresentedScene& represented,
+                                                const Scene& scene, const std::string& fileName);
 }  // namespace lambert
 
 #endif

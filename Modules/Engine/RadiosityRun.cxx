@@ -93,6 +93,15 @@ void RadiosityRun::Load(const ProgressCallback& progress) {
   this->scene_ = LoadScene(this->options_.files, this->options_.reader, this->options_.cleaning,
                            this->options_.settings, &this->reading_, &this->cleaning_, progress);
 
+  for (const auto& [name, representation] : this->options_.representations) {
+    const auto& materials = this->scene_.materials;
+    if (std::none_of(materials.begin(), materials.end(),
+                     [&, wanted = name](const Material& m) { return m.name == wanted; })) {
+      throw lambert::Error("The scene has no material " + name +
+                           ", whose light is to be shown in a way of its own.");
+    }
+  }
+
   // The sky that was asked for.
   if (this->options_.sky) {
     Light sky;
@@ -188,7 +197,40 @@ void RadiosityRun::LayFlat(const ProgressCallback& progress) {
   this->AddStage("atlas", timer.Seconds());
 }
 
+void RadiosityRun::Represent(const ProgressCallback& progress) {
+  // What is wanted of surfaces, by their material.
+  RepresentationOptions options;
+  options.introducedTriangles = this->options_.introducedTriangles.value_or(0);
+  const TriangleMesh& mesh = this->scene_.mesh;
+  options.wanted.resize(this->tree_.surfaceRoots.size(), this->options_.introducedTriangles
+                                                             ? Representation::Automatic
+                                                             : Representation::LightMap);
+  for (size_t surface = 0; surface < options.wanted.size(); ++surface) {
+    const int32_t root = this->tree_.surfaceRoots[surface];
+    const int32_t face = this->tree_.nodes[static_cast<size_t>(root)].firstFace;
+    const int32_t material = mesh.materialId[static_cast<size_t>(face)];
+    const auto wanted = this->options_.representations.find(
+        this->scene_.materials[static_cast<size_t>(material)].name);
+    if (wanted != this->options_.representations.end()) {
+      options.wanted[surface] = wanted->second;
+    }
+  }
+
+  // Both kinds.
+  Timer timer;
+  this->represented_ = RepresentSurfaces(mesh, this->tree_, this->solution_, options,
+                                         *this->options_.atlas, progress);
+  this->atlas_ = this->represented_->atlas;
+  this->lightMap_ = this->represented_->map;
+  this->AddStage("light map", timer.Seconds());
+}
+
 void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
+  if (this->options_.atlas &&
+      (this->options_.introducedTriangles || !this->options_.representations.empty())) {
+    this->Represent(progress);
+    return;
+  }
   this->LayFlat(
       [&](double fraction, const char* stage) { return Report(progress, 0.7 * fraction, stage); });
   Timer timer;

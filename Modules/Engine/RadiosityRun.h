@@ -3,6 +3,7 @@
 #define RadiosityRun_h
 
 #include "Atlas/Core/LightMap.h"
+#include "Atlas/Core/SurfaceRepresentation.h"
 #include "Clustering/Core/FaceClustering.h"
 #include "Common/Core/Progress.h"
 #include "Radiosity/Core/HierarchicalRadiosity.h"
@@ -13,6 +14,7 @@
 #include "SolveMethod.h"
 #include "lambertEngineModule.h"
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,6 +32,10 @@ struct RadiosityRunOptions {
   HierarchicalRadiosityOptions solver;  ///< of the method Hierarchical
   std::optional<Spectrum> sky;          ///< radiance of a constant sky, W/(m2 sr)
   std::optional<AtlasOptions> atlas;    ///< of a light map, where one is wanted
+  /// Triangles that refinement may add to the surfaces that their points light; none: all surfaces
+  /// are in the light map but those of `representations`.
+  std::optional<int64_t> introducedTriangles;
+  std::map<std::string, Representation> representations;  ///< by material, as asked for
   double timeLimit = 0;        ///< seconds since the process began, writing included; 0: none
   double outputSeconds = 0.2;  ///< kept free for what is not proportional to the mesh (a picture)
 };
@@ -71,6 +77,9 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   const RadiositySolution& Solution() const { return this->solution_; }
   const std::optional<SolutionError>& Error() const { return this->error_; }
   const RadiosityAtlas& Atlas() const { return this->atlas_; }
+  /// Where surfaces are represented in both ways; Atlas() and DrawnLightMap() are then of those in
+  /// the light map.
+  const std::optional<RepresentedScene>& Represented() const { return this->represented_; }
   const std::optional<LightMap>& DrawnLightMap() const { return this->lightMap_; }
   /// What the user should know, one sentence each, of every stage.
   std::vector<std::string> Warnings() const;
@@ -81,6 +90,8 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   void AddStage(const std::string& name, double seconds);
 
  private:
+  /// Chooses how each surface shows its light, and draws the light map of those that it takes.
+  void Represent(const ProgressCallback& progress);
   void SolveByMethod(const ProgressCallback& progress,
                      const std::function<void(const IterationRecord&)>& observer);
 
@@ -95,6 +106,7 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   std::optional<SolutionError> error_;
   RadiosityAtlas atlas_;
   std::optional<LightMap> lightMap_;
+  std::optional<RepresentedScene> represented_;
   std::vector<std::pair<std::string, double>> stages_;
 };
 }  // namespace lambert

@@ -5,8 +5,11 @@
 #include "RadiosityRun.h"
 #include "SceneSummary.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <vector>
 
 namespace lambert {
 namespace {
@@ -140,6 +143,39 @@ void AddSceneAndCleanUp(const RadiosityRun& run, Json* report) {
   (*report)["clean_up"] = CleaningJson(run.Cleaning());
   (*report)["warnings"] = run.Warnings();
 }
+/// How surfaces show their light, and what either way costs, those with the most introduced
+/// triangles first.
+Json RepresentationJson(const RadiosityRun& run) {
+  const RepresentedScene& represented = *run.Represented();
+  const TriangleMesh& mesh = run.GetScene().mesh;
+  std::vector<size_t> order(represented.surfaces.size()), faceOf(order.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    return represented.surfaces[a].Introduced() > represented.surfaces[b].Introduced();
+  });
+  for (size_t face = 0; face < mesh.triangles.size(); ++face) {
+    faceOf[static_cast<size_t>(mesh.surfaceId[face])] = face;
+  }
+  Json surfaces = Json::array();
+  for (const size_t surface : order) {
+    const SurfaceCost& cost = represented.surfaces[surface];
+    const auto material = static_cast<size_t>(mesh.materialId[faceOf[surface]]);
+    const auto part = static_cast<size_t>(mesh.partId[faceOf[surface]]);
+    const bool isMapped = cost.chosen == Representation::LightMap;
+    surfaces.push_back({{"surface", surface},
+                        {"material", run.GetScene().materials[material].name},
+                        {"part", run.GetScene().parts[part].name},
+                        {"chosen", isMapped ? "lightmap" : "points"},
+                        {"input_triangles", cost.inputTriangles},
+                        {"refined_triangles", cost.refinedTriangles},
+                        {"error_of_input_points", cost.inputPointError},
+                        {"texels", isMapped ? Json(cost.texels) : Json()},
+                        {"error_of_light_map", isMapped ? Json(cost.mapError) : Json()}});
+  }
+  return {{"triangles", represented.mapped.mesh.FaceCount() + represented.points.mesh.FaceCount()},
+          {"light_mapped", represented.mapped.tree.surfaceRoots.size()},
+          {"surfaces", surfaces}};
+}
 }  // namespace
 
 std::string SceneReportJson(const RadiosityRun& run) {
@@ -198,6 +234,7 @@ std::string RunReportJson(const RadiosityRun& run, const std::string& version) {
         {"seam_points", map.seamPoints},           {"seams_before", seams(map.before)},
         {"seams_after", seams(map.after)}};
   }
+  if (run.Represented()) report["representation"] = RepresentationJson(run);
   report["output"] = {{"triangles", run.Solution().mesh.FaceCount()},
                       {"points", run.Solution().mesh.PointCount()}};
   if (run.Error()) {

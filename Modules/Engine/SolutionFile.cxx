@@ -1,7 +1,6 @@
 #include "SolutionFile.h"
 
 #include "Common/Core/Error.h"
-#include "Display/Core/ToneMapping.h"
 #include "Scene/vtkSceneAdapter.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
@@ -75,8 +74,8 @@ std::string PlyHeader(size_t points, size_t triangles) {
   return header + "property list uchar int vertex_indices\nend_header\n";
 }
 
-void WritePly(const RadiositySolution& solution, const std::string& fileName, double exposure,
-              const std::vector<int64_t>& triangles) {
+void WritePly(const RadiositySolution& solution, const std::string& fileName,
+              const ToneMappingOptions& options, const std::vector<int64_t>& triangles) {
   // Number the points that the triangles use.
   const TriangleMesh& mesh = solution.mesh;
   std::vector<int32_t> number(mesh.positions.size(), -1), used;
@@ -90,8 +89,6 @@ void WritePly(const RadiositySolution& solution, const std::string& fileName, do
   }
 
   // Points with their light.
-  ToneMappingOptions options;
-  options.exposure = exposure;
   const ToneMapping toneMapping(LuminanceSamples(mesh, solution.radiosity), options);
   ByteWriter body;
   for (int32_t point : used) {
@@ -178,13 +175,14 @@ std::vector<int64_t> BrighterSides(const RadiositySolution& solution) {
 }
 
 void WriteSolution(const RadiositySolution& solution, const Scene& scene,
-                   const std::string& fileName, double exposure, bool bothSides) {
+                   const std::string& fileName, const ToneMappingOptions& toneMapping,
+                   bool bothSides) {
   if (Extension(fileName) == ".vtp") {
     WriteVtp(solution, scene, fileName);
     return;
   }
   std::vector<int64_t> triangles(solution.mesh.triangles.size());
   std::iota(triangles.begin(), triangles.end(), 0);
-  WritePly(solution, fileName, exposure, bothSides ? triangles : BrighterSides(solution));
+  WritePly(solution, fileName, toneMapping, bothSides ? triangles : BrighterSides(solution));
 }
 }  // namespace lambert

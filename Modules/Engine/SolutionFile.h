@@ -2,6 +2,7 @@
 #ifndef SolutionFile_h
 #define SolutionFile_h
 
+#include "Display/Core/ToneMapping.h"
 #include "Scene/Core/RadiositySolution.h"
 #include "Scene/Core/Scene.h"
 #include "lambertEngineModule.h"
@@ -17,7 +18,8 @@ LAMBERTENGINE_EXPORT bool IsSolutionFileName(const std::string& fileName);
 /// irradiance_g irradiance_b (W/m2). Viewers of PLY do not cull, so of a face with two lit sides
 /// the brighter stays, unless `bothSides`. Throws Error where the file cannot be written.
 LAMBERTENGINE_EXPORT void WriteSolution(const RadiositySolution& solution, const Scene& scene,
-                                        const std::string& fileName, double exposure = 0,
+                                        const std::string& fileName,
+                                        const ToneMappingOptions& toneMapping = {},
                                         bool bothSides = false);
 
 /// Throws Error, one sentence, where `fileName` cannot be written: no such folder, no right, a

@@ -22,13 +22,18 @@ fails(2, "solve", CORNELL_BOX, "-o", out, "--camera", "1,2,3", says=["--camera"]
 fails(2, "solve", CORNELL_BOX, "-o", out, "--probe", "points.csv", says=["--probe-output"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--no-such-option")
 fails(2, "solve", CORNELL_BOX, "-o", out, "--progress", "0", says=["{auto,plain,none}"])
-for option in ("--error", "--time", "--feature-angle", "--exposure"):
+for option in ("--error", "--time", "--feature-angle", "--exposure", "--ev", "--key", "--white"):
     for number in ("nan", "inf"):
         fails(2, "solve", CORNELL_BOX, "-o", out, option, number, says=[option, number])
 for option in ("--sky", "--reflectance"):
     fails(2, "solve", CORNELL_BOX, "-o", out, option, "nan", "1", "1", says=[option, "nan"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--size", "10.5x20", says=["--size"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--image", "picture.jpg", says=[".png"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--tone", "cubist", says=["--tone"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--up", "w", says=["--up"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--false-colors", "nit", says=["--false-colors"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--isolines", says=["--isolines", "--false-colors"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--false-colors", "lux", "--range", "5", "5", says=["--range"])
 
 # No output may write over what is read or over another output.
 scene = temporary("scene.ply")

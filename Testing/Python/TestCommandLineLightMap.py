@@ -71,3 +71,24 @@ for wrong, code in ((["--page-size", "64"], 2), (["--lightmap", temporary("map.o
                     (["--lightmap", "/nowhere/map.vtp"], 1), (["--lightmap", solved], 2)):
     failed = run("solve", CORNELL_BOX, "-o", solved, *wrong)
     assert failed.returncode == code and failed.stderr.strip(), (wrong, failed.returncode, failed.stderr)
+
+# Surfaces that refinement left alone, or whose material is wanted so, are lit by their points; the report tells what either costs.
+shares = {}
+for name, wanted in (("budget", ["--introduced", "500"]), ("wanted", ["--represent", "White:points"])):
+    mixed = run("solve", *common, *wanted, "--report", report)
+    assert mixed.returncode == 0, mixed.stderr
+    shares[name] = told = json.load(open(report))["representation"]
+    assert 0 < told["light_mapped"] < len(told["surfaces"])
+    mesh = mesh_of(mapped)
+    uv = vtk_to_numpy(mesh.GetPointData().GetArray("LightMapTCoords"))
+    light = vtk_to_numpy(mesh.GetPointData().GetArray("Irradiance"))
+    assert mesh.GetNumberOfCells() == told["triangles"]
+    assert (uv == -1).any() and (uv >= 0).any() and np.isfinite(light).all() and light.max() > 0
+lit_by_points = [s for s in shares["budget"]["surfaces"] if s["chosen"] == "points"]
+assert sum(max(0, s["refined_triangles"] - s["input_triangles"]) for s in lit_by_points) <= 500
+for surface in shares["budget"]["surfaces"]:
+    assert (surface["texels"] is not None) == (surface["chosen"] == "lightmap")
+assert all(s["chosen"] == ("points" if s["material"] == "White" else "lightmap") for s in shares["wanted"]["surfaces"])
+for wrong, code in ((["--represent", "White:paint"], 2), (["--represent", "NoSuch:points"], 1), (["--introduced", "-1"], 2)):
+    failed = run("solve", *common, *wrong)
+    assert failed.returncode == code and failed.stderr.strip(), (wrong, failed.returncode, failed.stderr)

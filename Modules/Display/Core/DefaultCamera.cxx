@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "Common/Core/Random.h"
+#include "Display/Core/RegularSplit.h"
 
 namespace lambert {
 namespace {
@@ -81,17 +82,12 @@ class BrightnessGrid {
     const float light = (Luminance(radiosity[size_t(t[0])]) + Luminance(radiosity[size_t(t[1])]) +
                          Luminance(radiosity[size_t(t[2])])) /
                         3;
-    for (int i = 0; i < n; ++i) {
-      for (int j = 0; j < 2 * (n - i) - 1;
-           ++j) {  // Centers of the n^2 triangles of a regular split.
-        const float u = (float(i) + (j % 2 ? 2 / 3.f : 1 / 3.f)) / float(n);
-        const float v = (float(j / 2) + (j % 2 ? 2 / 3.f : 1 / 3.f)) / float(n);
-        const int64_t index = Index(a + (b - a) * u + (c - a) * v);
-        if (index < 0) continue;
-        area_[size_t(index)] += share;
-        light_[size_t(index)] += share * light;
-      }
-    }
+    ForEachMiddleOfSplit(n, [&](const Vec2f& place) {
+      const int64_t index = Index(PlaceOnTriangle(a, b, c, place));
+      if (index < 0) return;
+      area_[size_t(index)] += share;
+      light_[size_t(index)] += share * light;
+    });
   }
 
   void FindUsualBrightness() {
@@ -116,9 +112,9 @@ Vec3f PlaceIn(const Box3f& bounds, const Vec3f& t) {
   return bounds.low + Vec3f(e.x * t.x, e.y * t.y, e.z * t.z);
 }
 
-/// Fraction of rays that leave the scene within `halfAngle` cosine of `axis`, from the middle of
-/// the bounds.
-double OpenFraction(const BrightnessGrid& grid, const Vec3f& axis, float minimumCosine) {
+/// Fraction of rays within `minimumCosine` of `axis` that leave the scene, from a place in it.
+double OpenFraction(const BrightnessGrid& grid, const Vec3f& from, const Vec3f& axis,
+                    float minimumCosine) {
   constexpr int kRays = 2048;
   int rays = 0, open = 0;
   Random random(1);
@@ -128,7 +124,7 @@ double OpenFraction(const BrightnessGrid& grid, const Vec3f& axis, float minimum
     const Vec3f d{r * std::cos(angle), r * std::sin(angle), z};
     if (Dot(d, axis) < minimumCosine) continue;
     ++rays;
-    open += grid.Look(grid.Bounds().Center(), d).escaped;
+    open += grid.Look(from, d).escaped;
   }
   return rays ? double(open) / rays : 0;
 }
@@ -156,7 +152,8 @@ double ViewScore(const BrightnessGrid& grid, const Vec3f& eye, const Vec3f& forw
   return score;
 }
 
-Camera ViewFromWithin(const BrightnessGrid& grid, double aspect) {
+/// `height` is that of the eye, as a part of the scene's.
+Camera ViewFromWithin(const BrightnessGrid& grid, double aspect, float height) {
   const Vec3f extent = grid.Bounds().Extent();
   constexpr int kPlaces = 12, kDirections = 16;
   Camera best;
@@ -166,7 +163,7 @@ Camera ViewFromWithin(const BrightnessGrid& grid, double aspect) {
       best.position + Vec3d(extent.x >= extent.z ? 1 : 0, 0, extent.x >= extent.z ? 0 : 1);
   double bestScore = 0;
   for (int place = 0; place < kPlaces * kPlaces; ++place) {
-    const Vec3f eye = PlaceIn(grid.Bounds(), {(float(place % kPlaces) + 0.5f) / kPlaces, 0.55f,
+    const Vec3f eye = PlaceIn(grid.Bounds(), {(float(place % kPlaces) + 0.5f) / kPlaces, height,
                                               (float(place / kPlaces) + 0.5f) / kPlaces});
     const float step = 1.5f * grid.CellSize();
     if (!grid.IsFree(eye) || !grid.IsFree(eye + Vec3f(step, 0, 0)) ||
@@ -200,10 +197,9 @@ Camera FramingView(const Box3f& bounds, const Vec3f& direction, double radius, d
   return camera;
 }
 
-}  // namespace
-
-Camera DefaultCamera(const TriangleMesh& mesh, const std::vector<Spectrum>& radiosity,
-                     double aspectRatio) {
+/// The view of a mesh whose +y is up.
+Camera ViewWithYUp(const TriangleMesh& mesh, const std::vector<Spectrum>& radiosity,
+                   double aspectRatio) {
   const Box3f bounds = mesh.Bounds();
   if (mesh.triangles.empty() || !(bounds.Diagonal() > 0)) return {};
   const BrightnessGrid grid(mesh, radiosity);
@@ -215,12 +211,19 @@ Camera DefaultCamera(const TriangleMesh& mesh, const std::vector<Spectrum>& radi
                                   Vec3f(-1, 0, 0), Vec3f(0, 1, 0),  Vec3f(0, -1, 0)};
   std::vector<Vec3f> openSides;
   for (const Vec3f& axis : axes) {
-    if (OpenFraction(grid, axis, kConeCosine) > 0.8) openSides.push_back(axis);
+    if (OpenFraction(grid, bounds.Center(), axis, kConeCosine) > 0.8) openSides.push_back(axis);
   }
 
-  // Within a room, through its open side, or at an object.
-  if (openSides.empty() && OpenFraction(grid, {0, 1, 0}, -1) < 0.3) {
-    return ViewFromWithin(grid, aspectRatio);
+  // Within a room or in one under an upper storey without a roof, through an open side, or at an
+  // object.
+  constexpr float kEyeHeight = 0.55f, kLowerEyeHeight = 0.25f;
+  const Vec3f up{0, 1, 0}, lower = PlaceIn(bounds, {0.5f, kLowerEyeHeight, 0.5f});
+  if (openSides.empty() && OpenFraction(grid, bounds.Center(), up, -1) < 0.3) {
+    return ViewFromWithin(grid, aspectRatio, kEyeHeight);
+  }
+  if (openSides.size() == 1 && openSides[0].y > 0 &&
+      OpenFraction(grid, lower, up, kConeCosine) < 0.5) {
+    return ViewFromWithin(grid, aspectRatio, kLowerEyeHeight);
   }
   if (openSides.size() == 1 && openSides[0].y == 0) {
     const Vec3f side = openSides[0], extent = bounds.Extent();
@@ -232,6 +235,23 @@ Camera DefaultCamera(const TriangleMesh& mesh, const std::vector<Spectrum>& radi
     return camera;
   }
   return FramingView(bounds, Normalize(Vec3f(0.35f, 0.5f, 1)), bounds.Diagonal() / 2, aspectRatio);
+}
+
+}  // namespace
+
+Camera DefaultCamera(const TriangleMesh& mesh, const std::vector<Spectrum>& radiosity,
+                     double aspectRatio, UpAxis up) {
+  if (up == UpAxis::Y) return ViewWithYUp(mesh, radiosity, aspectRatio);
+
+  // Turn the mesh, find the view, turn that back.
+  TriangleMesh turned;
+  turned.triangles = mesh.triangles;
+  for (const Vec3f& p : mesh.positions) turned.positions.emplace_back(ToYUp(Vec3d(p), up));
+  Camera camera = ViewWithYUp(turned, radiosity, aspectRatio);
+  camera.position = FromYUp(camera.position, up);
+  camera.focalPoint = FromYUp(camera.focalPoint, up);
+  camera.viewUp = FromYUp(camera.viewUp, up);
+  return camera;
 }
 
 }  // namespace lambert

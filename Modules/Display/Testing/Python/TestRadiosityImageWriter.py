@@ -5,10 +5,15 @@ import lambert
 
 writer = lambert.vtkRadiosityImageWriter()
 for name, default, other in (("FileName", None, "picture.png"), ("Size", (960, 720), (64, 48)), ("ViewAngle", 40.0, 60.0),
-                             ("AutomaticCamera", True, False), ("Exposure", 0.0, -1.5)):
+                             ("AutomaticCamera", True, False),
+                             ("Exposure", 0.0, -1.5), ("DodgingAndBurning", False, True), ("UpAxis", -1, 2), ("FalseColors", 0, 1),
+                             ("FalseColorRange", (0, 0), (0, 500)), ("FalseColorSteps", 0, 4), ("Isolines", False, True)):
     assert getattr(writer, "Get" + name)() == default, name
     getattr(writer, "Set" + name)(other)
     assert getattr(writer, "Get" + name)() == other, name
+
+writer.SetUpAxis(7)
+assert writer.GetUpAxis() == writer.UP_Z
 
 # A camera of one's own ends the automatic one.
 writer.AutomaticCameraOn()
@@ -33,3 +38,20 @@ for size in ((64, 48), (0, 48)):
     writer.SetSize(*size)
     writer.Write()
     assert errors and writer.GetErrorCode() != 0 and not os.path.exists(path)
+
+# False colours ask for irradiance, and for a scale that has a length.
+if lambert.vtkRadiosityImageWriter.IsDisplayAvailable():
+    solved = lambert.vtkPathTracedIrradiance()
+    solved.SetInputConnection(reader.GetOutputPort())
+    solved.SetSamples(1)
+    for source, ends, fails in ((reader, (0, 0), True), (solved, (2, 1), True), (solved, (0, 0), False)):
+        writer, errors = lambert.vtkRadiosityImageWriter(), []
+        writer.AddObserver("ErrorEvent", lambda *_: errors.append(1))
+        writer.SetInputConnection(source.GetOutputPort())
+        writer.SetFileName(path if fails else path.replace("never", "lux"))
+        writer.SetSize(64, 48)
+        writer.SetCamera(0.278, 0.273, -0.8, 0.278, 0.273, 0)
+        writer.SetFalseColors(writer.LUX)
+        writer.SetFalseColorRange(*ends)
+        writer.Write()
+        assert bool(errors) == fails and os.path.exists(writer.GetFileName()) != fails, (ends, fails)

@@ -29,10 +29,17 @@ def lit_plane():
 
 # Every option, its default, and a value that comes back.
 tone = lambert.vtkRadiosityToneMapping()
-for name, default, other in (("Key", 0.18, 0.3), ("Exposure", 0.0, -1.5), ("White", 0.0, 3.0)):
+for name, default, other in (("Key", 0.18, 0.3), ("Exposure", 0.0, -1.5), ("White", 0.0, 3.0), ("Curve", 0, 2),
+                             ("SteadyStops", 0.0, 0.5)):
     assert getattr(tone, "Get" + name)() == default, name
     getattr(tone, "Set" + name)(other)
     assert getattr(tone, "Get" + name)() == other, name
+for curve in ("Photographic", "Linear", "Filmic"):
+    getattr(tone, "SetCurveTo" + curve)()
+    assert tone.GetCurve() == getattr(tone, curve.upper())
+assert np.isnan(tone.GetExposureValue())
+tone.SetExposureValue(9)
+assert tone.GetExposureValue() == 9
 assert lambert.vtkRadiosityToneMapping.ColorsArrayName() == "Colors"
 
 # A brighter point gets a brighter colour; the rest passes through.
@@ -46,6 +53,23 @@ assert output.GetPointData().GetScalars().GetName() == "Colors"
 assert output.GetPointData().HasArray("Radiosity")
 x = vtk_to_numpy(output.GetPoints().GetData())[:, 0]
 assert colors[x.argmax(), 1] > colors[x.argmin(), 1]
+
+# An adaptation that is measured anew shows twice the light as before; a steady one as brighter, and comes there in time.
+def shown(mapping, light):
+    data = lit_plane()
+    vtk_to_numpy(data.GetPointData().GetArray("Radiosity"))[:] *= light
+    mapping.SetInputData(data)
+    mapping.Update()
+    return vtk_to_numpy(mapping.GetOutput().GetPointData().GetArray("Colors")).astype(int)
+
+
+free, steady = lambert.vtkRadiosityToneMapping(), lambert.vtkRadiosityToneMapping()
+steady.SetSteadyStops(0.25)
+before = shown(free, 1)
+assert np.abs(shown(free, 2) - before).max() <= 1 and np.array_equal(shown(steady, 1), before)
+assert shown(steady, 2).mean() > before.mean() + 10
+later = [shown(steady, 2) for _ in range(12)]
+assert np.abs(later[-1] - before).max() <= 2
 
 # Data that no method has lit is an error, not a grey picture.
 errors = []
@@ -91,3 +115,16 @@ front = picture("tone-front.png", 0, 0, 3, 0, 0, 0)
 assert front[30, 50, 1] > front[30, 30, 1] > front[2, 2, 1] + 20
 back = picture("tone-back.png", 0, 0, -3, 0, 0, 0)
 assert np.ptp(back) <= 3  # The background's three bands alone.
+
+# Light that is not coloured yet is developed by pixel; dodging and burning belongs to the photographic curve.
+writer, errors = lambert.vtkRadiosityImageWriter(), []
+writer.AddObserver("ErrorEvent", lambda *_: errors.append(1))
+writer.SetInputData(lit_plane())
+writer.SetFileName(os.path.join(os.environ["LAMBERT_TEMPORARY_DIR"], "tone-local.png"))
+writer.SetSize(80, 60)
+writer.DodgingAndBurningOn()
+writer.Write()
+assert not errors and os.path.exists(writer.GetFileName())
+writer.GetToneMapping().SetCurveToFilmic()
+writer.Write()
+assert errors and writer.GetErrorCode() != 0

@@ -46,11 +46,37 @@ TEST(DefaultCamera, LooksThroughTheOpenSide) {
   EXPECT_NEAR(camera.focalPoint.z, 2.5, 1e-4);
 }
 
+TEST(DefaultCamera, StandsUnderAnUpperStoreyWithoutRoof) {
+  TriangleMesh house = Box({0, 0, 0}, {10, 6, 8}, 1 << 3);  // +y left out
+  const std::vector<Spectrum> light(16, Spectrum(1));
+  EXPECT_GT(DefaultCamera(house, light).position.y, 6);  // A tray, seen from above.
+  const TriangleMesh ceiling = Box({0, 2.6f, 0}, {10, 2.6f, 8}, 0x3b);
+  for (const auto& t : ceiling.triangles) house.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+  house.positions.insert(house.positions.end(), ceiling.positions.begin(), ceiling.positions.end());
+  EXPECT_TRUE(Inside({{0, 0, 0}, {10, 2.6f, 8}}, DefaultCamera(house, light).position));
+}
+
 TEST(DefaultCamera, FramesAnObjectFromOutside) {
   const TriangleMesh plate = Box({0, 0, 0}, {2, 2, 2}, 0x3b);  // the floor alone
   const Camera camera = DefaultCamera(plate, std::vector<Spectrum>(8, Spectrum(1)));
   EXPECT_GT(camera.position.y, plate.Bounds().high.y);
   EXPECT_GT(camera.position.z, camera.focalPoint.z);
+}
+
+TEST(DefaultCamera, TurnsWithTheRoom) {
+  for (const int open : {0, 1 << 5, 0x3b}) {
+    const TriangleMesh room = Box({0, 0, 0}, {10, 3, 4}, open);
+    const std::vector<Spectrum> light(8, Spectrum(1));
+    const Camera camera = DefaultCamera(room, light);
+    for (const UpAxis up : {UpAxis::X, UpAxis::Z}) {
+      TriangleMesh turned = room;
+      for (Vec3f& p : turned.positions) p = Vec3f(FromYUp(Vec3d(p), up));
+      const Camera view = DefaultCamera(turned, light, 4. / 3, up);
+      EXPECT_LT(Length(view.position - FromYUp(camera.position, up)), 1e-3);
+      EXPECT_LT(Length(view.focalPoint - FromYUp(camera.focalPoint, up)), 1e-3);
+      EXPECT_TRUE(view.viewUp == FromYUp(camera.viewUp, up));
+    }
+  }
 }
 
 TEST(DefaultCamera, AnEmptyMeshGivesTheDefault) {

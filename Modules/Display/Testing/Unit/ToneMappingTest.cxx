@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "Common/Core/Error.h"
-#include "Common/Core/TriangleMesh.h"
 
 namespace lambert {
 namespace {
@@ -47,20 +46,10 @@ TEST(ToneMapping, IsMonotonousAndKeepsTheHueBelowWhite) {
   EXPECT_NEAR(LinearFromSrgb(display.r) / LinearFromSrgb(display.g), 2, 1e-3);
 }
 
-TEST(ToneMapping, BlackPointsDoNotDarkenTheRest) {
-  std::vector<LuminanceSample> samples = Uniform(1);
-  const double scale = ToneMapping(samples).Scale();
-  samples.push_back({0, 1000});
-  samples.push_back({-1, 1000});
-  samples.push_back({std::numeric_limits<float>::quiet_NaN(), 1});
-  samples.push_back({std::numeric_limits<float>::infinity(), 1});
-  EXPECT_DOUBLE_EQ(ToneMapping(samples).Scale(), scale);
-}
-
 TEST(ToneMapping, ASceneWithoutLightIsBlack) {
   const ToneMapping mapping(std::vector<LuminanceSample>(5));
   EXPECT_TRUE(mapping.Apply(Spectrum(1)) == Spectrum());
-  EXPECT_TRUE(ToneMapping({}).Apply(Spectrum(1)) == Spectrum());
+  EXPECT_TRUE(ToneMapping(Adaptation()).Apply(Spectrum(1)) == Spectrum());
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_TRUE(ToneMapping(Uniform(1)).Apply(Spectrum(nan)) == Spectrum());
 }
@@ -71,17 +60,42 @@ TEST(ToneMapping, RefusesOptionsWithoutMeaning) {
   EXPECT_THROW(ToneMapping(Uniform(1), {0.18, 0, -1}), Error);
 }
 
-TEST(ToneMapping, LampsDoNotDecideTheExposure) {
-  TriangleMesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 5}, {1, 0, 5}, {0, 1, 5}};
-  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
-  mesh.Complete();
-  mesh.emittance[1] = Spectrum(1000);
-  const auto samples = LuminanceSamples(mesh, {Spectrum(1), Spectrum(1), Spectrum(1),
-                                               Spectrum(1000), Spectrum(1000), Spectrum(1000)});
-  EXPECT_NEAR(samples[0].weight, 0.5 / 3, 1e-6);
-  EXPECT_EQ(samples[4].weight, 0);
-  EXPECT_NEAR(ToneMapping(samples).Scale(), 0.18, 1e-6);
+TEST(ToneMapping, ACameraDoesNotAdapt) {
+  // A white wall under 1000 lux, 1000 / pi = 318 cd/m2, is exposed as middle grey at
+  // log2(318 / 0.125) = 11.3 EV.
+  ToneMappingOptions options;
+  options.exposureValue = std::log2(1000 / kPi / 0.125);
+  options.curve = ToneCurve::Linear;
+  const Spectrum wall(float(1000 / kLumensPerWatt));
+  for (float level : {0.01f, 100.f}) {
+    const ToneMapping mapping(Uniform(level), options);
+    EXPECT_NEAR(mapping.Apply(wall).g, SrgbFromLinear(0.18f), 1e-5);
+  }
+  *options.exposureValue += 1;
+  EXPECT_NEAR(ToneMapping(Uniform(1), options).Apply(wall).g, SrgbFromLinear(0.09f), 1e-5);
+  options.exposureValue = std::nan("");
+  EXPECT_THROW(ToneMapping(Uniform(1), options), Error);
+}
+
+TEST(ToneMapping, LinearClipsByBandAndFilmLosesColour) {
+  const ToneMapping linear(Uniform(1), {0.18, 0, 0, ToneCurve::Linear});
+  EXPECT_NEAR(linear.Apply(Spectrum(1)).r, SrgbFromLinear(0.18f), 1e-6);
+  EXPECT_NEAR(linear.Apply({100, 1, 1}).r, 1, 1e-6);
+  EXPECT_NEAR(linear.Apply({100, 1, 1}).g, SrgbFromLinear(0.18f), 1e-6);
+
+  const ToneMapping filmic(Uniform(1), {0.18, 0, 0, ToneCurve::Filmic});
+  EXPECT_DOUBLE_EQ(filmic.White(), kFilmicWhite);
+  const Spectrum dim = filmic.Apply({0.2f, 0.1f, 0.1f}), bright = filmic.Apply({20, 10, 10});
+  EXPECT_GT(LinearFromSrgb(dim.r) / LinearFromSrgb(dim.g), 1.8);
+  EXPECT_LT(LinearFromSrgb(bright.r) / LinearFromSrgb(bright.g), 1.5);
+}
+
+TEST(ToneMapping, ASurroundOfItsOwnLuminanceChangesNothing) {
+  const ToneMapping mapping(Uniform(1));
+  const Spectrum light(2, 1, 0.5f);
+  EXPECT_NEAR(mapping.Apply(light, Luminance(light)).r, mapping.Apply(light).r, 1e-6);
+  EXPECT_GT(mapping.Apply(light, 0.1).r, mapping.Apply(light).r);
+  EXPECT_TRUE(mapping.Apply(Spectrum(-1), 1) == Spectrum());
 }
 
 }  // namespace

@@ -1,0 +1,191 @@
+#include "Atlas/Core/SurfaceRepresentation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "Common/Core/Error.h"
+
+namespace lambert {
+namespace {
+
+/// Sums towards a relative RMS error by area.
+struct ErrorSum {
+  double squares = 0, light = 0;
+
+  void Add(const Spectrum& found, const Spectrum& wanted, double area) {
+    squares += area * SquaredNorm(found - wanted);
+    light += area * SquaredNorm(wanted);
+  }
+  double Rms() const { return light > 0 ? std::sqrt(squares / light) : 0; }
+};
+
+/// Of a place in the plane of a face, for its three corners.
+std::array<float, 3> Barycentrics(const TriangleMesh& mesh, int64_t face, const Vec3f& place) {
+  const Vec3d p(place), a(mesh.Corner(face, 0)), b(mesh.Corner(face, 1)), c(mesh.Corner(face, 2));
+  const Vec3d normal = Cross(b - a, c - a);
+  const double square = Dot(normal, normal);
+  if (!(square > 0)) return {1, 0, 0};
+  const double atB = Dot(Cross(p - a, c - a), normal) / square;
+  const double atC = Dot(Cross(b - a, p - a), normal) / square;
+  return {float(1 - atB - atC), float(atB), float(atC)};
+}
+
+Vec3f Middle(const TriangleMesh& mesh, int64_t face) {
+  return (mesh.Corner(face, 0) + mesh.Corner(face, 1) + mesh.Corner(face, 2)) / 3.f;
+}
+
+Spectrum MeanOverCorners(const std::vector<Spectrum>& light, const TriangleMesh& mesh,
+                         size_t face) {
+  const auto& t = mesh.triangles[face];
+  return (light[size_t(t[0])] + light[size_t(t[1])] + light[size_t(t[2])]) / 3;
+}
+
+/// Surface of `mesh` that a triangle of the solution lies on.
+size_t SurfaceOf(const TriangleMesh& mesh, const RadiositySolution& solution, size_t triangle) {
+  return size_t(mesh.surfaceId[size_t(solution.inputFaceId[triangle])]);
+}
+
+/// Triangles, area and the error of the input's points, by surface, of the brighter sides.
+std::vector<SurfaceCost> MeasureSurfaces(const TriangleMesh& mesh,
+                                         const RadiositySolution& solution) {
+  const int32_t count = 1 + *std::max_element(mesh.surfaceId.begin(), mesh.surfaceId.end());
+  std::vector<SurfaceCost> costs(static_cast<size_t>(count));
+  std::vector<ErrorSum> errors(costs.size());
+  for (size_t face = 0; face < mesh.triangles.size(); ++face) {
+    SurfaceCost& cost = costs[size_t(mesh.surfaceId[face])];
+    ++cost.inputTriangles;
+    cost.area += mesh.Area(int64_t(face));
+  }
+  const std::vector<uint8_t> sides = BrighterSidesOfSurfaces(mesh, solution);
+  for (size_t t = 0; t < solution.inputFaceId.size(); ++t) {
+    const size_t surface = SurfaceOf(mesh, solution, t);
+    if (solution.side[t] != sides[surface]) continue;
+    ++costs[surface].refinedTriangles;
+    if (solution.inputIrradiance.empty()) continue;
+    const int64_t face = solution.inputFaceId[t];
+    const auto w = Barycentrics(mesh, face, Middle(solution.mesh, int64_t(t)));
+    Spectrum atPoints;
+    for (size_t c = 0; c < 3; ++c) {
+      atPoints += solution.inputIrradiance[size_t(mesh.triangles[size_t(face)][c])] * w[c];
+    }
+    errors[surface].Add(atPoints, MeanOverCorners(solution.irradiance, solution.mesh, t),
+                        solution.mesh.Area(int64_t(t)));
+  }
+  for (size_t s = 0; s < costs.size(); ++s) costs[s].inputPointError = errors[s].Rms();
+  return costs;
+}
+
+/// What the lookups of the surfaces in the light map are off by.
+std::vector<double> MapErrors(const RepresentedScene& scene) {
+  const TriangleMesh& mesh = scene.mapped.mesh;
+  const RadiositySolution& solution = scene.mapped.solution;
+  const std::vector<int32_t> chartOfFace = ChartOfFace(scene.atlas.set);
+  const std::vector<uint8_t> sides = BrighterSidesOfSurfaces(mesh, solution);
+  std::vector<ErrorSum> errors(scene.mapped.tree.surfaceRoots.size());
+  for (size_t t = 0; t < solution.inputFaceId.size(); ++t) {
+    const size_t surface = SurfaceOf(mesh, solution, t);
+    if (solution.side[t] != sides[surface]) continue;
+    const int64_t face = solution.inputFaceId[t];
+    const auto w = Barycentrics(mesh, face, Middle(solution.mesh, int64_t(t)));
+    const auto& corners = scene.atlas.textureCoords[size_t(face)];
+    const Vec2f place = corners[0] * w[0] + corners[1] * w[1] + corners[2] * w[2];
+    const int page = scene.atlas.pageOfChart[size_t(chartOfFace[size_t(face)])];
+    errors[surface].Add(Lookup(scene.map, page, place),
+                        MeanOverCorners(solution.irradiance, solution.mesh, t),
+                        solution.mesh.Area(int64_t(t)));
+  }
+  std::vector<double> rms;
+  for (const ErrorSum& error : errors) rms.push_back(error.Rms());
+  return rms;
+}
+
+/// The triangles of a solution that lie on the brighter sides of its surfaces.
+RadiositySolution OnBrighterSides(const SurfaceSubset& subset) {
+  const RadiositySolution& all = subset.solution;
+  const std::vector<uint8_t> sides = BrighterSidesOfSurfaces(subset.mesh, all);
+  RadiositySolution kept;
+  std::vector<int64_t> triangles, points;
+  for (size_t t = 0; t < all.inputFaceId.size(); ++t) {
+    if (all.side[t] != sides[SurfaceOf(subset.mesh, all, t)]) continue;
+    triangles.push_back(int64_t(t));
+    kept.inputFaceId.push_back(all.inputFaceId[t]);
+    kept.side.push_back(all.side[t]);
+  }
+  kept.mesh = TakeFaces(all.mesh, triangles, &points);
+  for (const int64_t point : points) kept.irradiance.push_back(all.irradiance[size_t(point)]);
+  return kept;
+}
+
+}  // namespace
+
+std::vector<SurfaceCost> ChooseRepresentations(const TriangleMesh& mesh,
+                                               const RadiositySolution& solution,
+                                               const RepresentationOptions& options) {
+  if (options.introducedTriangles < 0) throw Error("Refinement adds 0 triangles or more.");
+  if (mesh.surfaceId.empty()) throw Error("The mesh has no surfaces; cluster its faces first.");
+  std::vector<SurfaceCost> costs = MeasureSurfaces(mesh, solution);
+  if (!options.wanted.empty() && options.wanted.size() != costs.size()) {
+    throw Error("Representations are wanted of " + std::to_string(options.wanted.size()) +
+                " surfaces, and there are " + std::to_string(costs.size()) + ".");
+  }
+
+  // What is wanted stands.
+  int64_t introduced = 0;
+  std::vector<size_t> open;
+  for (size_t s = 0; s < costs.size(); ++s) {
+    const auto wanted = options.wanted.empty() ? Representation::Automatic : options.wanted[s];
+    if (wanted == Representation::LightMap) costs[s].chosen = wanted;
+    if (wanted == Representation::Automatic) open.push_back(s);
+    if (costs[s].chosen == Representation::Points) introduced += costs[s].Introduced();
+  }
+
+  // Of the others those with the most introduced triangles go first.
+  std::stable_sort(open.begin(), open.end(), [&](size_t a, size_t b) {
+    return costs[a].Introduced() > costs[b].Introduced();
+  });
+  for (const size_t s : open) {
+    if (introduced <= options.introducedTriangles || costs[s].Introduced() == 0) break;
+    costs[s].chosen = Representation::LightMap;
+    introduced -= costs[s].Introduced();
+  }
+  return costs;
+}
+
+RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& tree,
+                                   const RadiositySolution& solution,
+                                   const RepresentationOptions& options,
+                                   const AtlasOptions& atlasOptions,
+                                   const ProgressCallback& progress) {
+  // Surface by surface.
+  RepresentedScene scene;
+  scene.surfaces = ChooseRepresentations(mesh, solution, options);
+  std::vector<char> isMapped, isLitByPoints;
+  for (const SurfaceCost& cost : scene.surfaces) {
+    isMapped.push_back(cost.chosen == Representation::LightMap);
+    isLitByPoints.push_back(cost.chosen == Representation::Points);
+  }
+  scene.points = OnBrighterSides(TakeSurfaces(mesh, tree, solution, isLitByPoints));
+
+  // The light map of those that it takes.
+  scene.mapped = TakeSurfaces(mesh, tree, solution, isMapped);
+  scene.atlas = MakeRadiosityAtlas(
+      scene.mapped.mesh, scene.mapped.tree, atlasOptions,
+      [&](double fraction, const char* stage) { return Report(progress, 0.7 * fraction, stage); });
+  scene.map = MakeLightMap(scene.mapped.mesh, scene.atlas, scene.mapped.solution,
+                           [&](double fraction, const char* stage) {
+                             return Report(progress, 0.7 + 0.3 * fraction, stage);
+                           });
+
+  // What it costs.
+  const std::vector<double> errors = MapErrors(scene);
+  size_t next = 0;
+  for (SurfaceCost& cost : scene.surfaces) {
+    if (cost.chosen != Representation::LightMap) continue;
+    cost.texels = cost.area / (scene.atlas.texelSize * scene.atlas.texelSize);
+    cost.mapError = errors[next++];
+  }
+  return scene;
+}
+
+}  // namespace lambert

@@ -1,0 +1,61 @@
+// How each surface shows its light (thesis 5.1, 5.3): at its points where refinement stayed above
+// the input triangles, in a light map where it went below.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "Atlas/Core/LightMap.h"
+#include "Atlas/Core/SurfaceSubset.h"
+
+namespace lambert {
+
+enum class Representation : uint8_t { Automatic, Points, LightMap };
+
+struct RepresentationOptions {
+  /// Triangles that refinement may add to all the surfaces that their points light, [0, inf).
+  int64_t introducedTriangles = 0;
+  std::vector<Representation> wanted;  ///< by surface; empty: all Automatic
+};
+
+/// What a surface costs either way. Errors are relative RMS of irradiance against the solution, by
+/// area.
+struct SurfaceCost {
+  Representation chosen = Representation::Points;
+  int64_t inputTriangles = 0;    ///< drawn with a light map
+  int64_t refinedTriangles = 0;  ///< drawn with light at the points: of the brighter side
+  double area = 0;               ///< m2
+  double texels = 0;             ///< that its area takes in the light map; 0: it is not in it
+  double mapError = 0;           ///< of lookups in the light map; 0: it is not in it
+  double inputPointError = 0;    ///< were the points of the input alone lit
+
+  int64_t Introduced() const {
+    return refinedTriangles > inputTriangles ? refinedTriangles - inputTriangles : 0;
+  }
+};
+
+/// Takes the surfaces by the triangles that refinement introduced, the most first, into the light
+/// map, until those of the others are within the options (thesis 5.3). `mesh` is the solved mesh,
+/// with surfaces. Throws Error where the options do not fit.
+std::vector<SurfaceCost> ChooseRepresentations(const TriangleMesh& mesh,
+                                               const RadiositySolution& solution,
+                                               const RepresentationOptions& options);
+
+/// A solved scene, every surface in its representation.
+struct RepresentedScene {
+  std::vector<SurfaceCost> surfaces;  ///< of the solved mesh
+  SurfaceSubset mapped;               ///< in the light map
+  RadiosityAtlas atlas;               ///< of mapped.mesh
+  LightMap map;
+  RadiositySolution points;  ///< the brighter sides of the others
+};
+
+/// Chooses, lays flat and draws the light of what the light map takes. `mesh` is in the order of
+/// `tree`. Throws Error, Cancelled.
+RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& tree,
+                                   const RadiositySolution& solution,
+                                   const RepresentationOptions& options,
+                                   const AtlasOptions& atlasOptions,
+                                   const ProgressCallback& progress = {});
+
+}  // namespace lambert

@@ -1,0 +1,153 @@
+#include "Atlas/Core/SurfaceRepresentation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "AtlasMeshes.h"
+#include "Common/Core/Error.h"
+
+namespace lambert {
+namespace {
+
+/// Light with a bright strip across, narrower than a cell of the planes.
+Spectrum Strip(const Vec3f& p) {
+  return Spectrum(1 + 4 * std::exp(-200 * (p.x - 0.6f) * (p.x - 0.6f)));
+}
+
+/// Two planes of 32 triangles, one above the other. What lies on the upper one is refined `depth`
+/// times, on the lower one not.
+struct TwoPlanes {
+  TriangleMesh mesh;
+  ClusterTree tree;
+  RadiositySolution solution;
+
+  explicit TwoPlanes(int depth) {
+    const TriangleMesh plane = FlatGrid(4);
+    for (const float height : {0.f, 5.f}) {
+      const int32_t first = int32_t(mesh.positions.size());
+      for (const Vec3f& p : plane.positions) mesh.positions.push_back(p + Vec3f(0, 0, height));
+      for (const auto& t : plane.triangles) {
+        mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+      }
+    }
+    mesh.Complete();
+    tree = ClusterFaces(&mesh, {});
+    for (const Vec3f& p : mesh.positions) solution.inputIrradiance.push_back(Strip(p));
+    for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
+      this->Add(face, mesh.Corner(face, 0), mesh.Corner(face, 1), mesh.Corner(face, 2),
+                mesh.Corner(face, 0).z > 1 ? depth : 0);
+    }
+    solution.mesh.Complete();
+  }
+
+  size_t Upper() const {
+    return size_t(mesh.surfaceId[size_t(mesh.Corner(0, 0).z > 1 ? 0 : mesh.FaceCount() - 1)]);
+  }
+
+ private:
+  void Add(int64_t face, const Vec3f& a, const Vec3f& b, const Vec3f& c, int depth) {
+    if (depth > 0) {
+      const Vec3f ab = (a + b) * 0.5f, bc = (b + c) * 0.5f, ca = (c + a) * 0.5f;
+      this->Add(face, a, ab, ca, depth - 1);
+      this->Add(face, ab, b, bc, depth - 1);
+      this->Add(face, ca, bc, c, depth - 1);
+      this->Add(face, ab, bc, ca, depth - 1);
+      return;
+    }
+    const int32_t first = int32_t(solution.mesh.positions.size());
+    for (const Vec3f& p : {a, b, c}) {
+      solution.mesh.positions.push_back(p);
+      solution.irradiance.push_back(Strip(p));
+    }
+    solution.mesh.triangles.push_back({first, first + 1, first + 2});
+    solution.inputFaceId.push_back(face);
+    solution.side.push_back(kFront);
+  }
+};
+
+AtlasOptions Page() {
+  AtlasOptions options;
+  options.pageSize = 256;
+  return options;
+}
+
+TEST(SurfaceRepresentation, WhatWasRefinedMostGoesIntoTheLightMap) {
+  const TwoPlanes planes(2);
+  const auto costs = ChooseRepresentations(planes.mesh, planes.solution, {});
+  ASSERT_EQ(costs.size(), 2u);
+  const SurfaceCost &upper = costs[planes.Upper()], &lower = costs[1 - planes.Upper()];
+  EXPECT_EQ(upper.chosen, Representation::LightMap);
+  EXPECT_EQ(lower.chosen, Representation::Points);
+  EXPECT_EQ(upper.inputTriangles, 32);
+  EXPECT_EQ(upper.refinedTriangles, 32 * 16);
+  EXPECT_EQ(lower.Introduced(), 0);
+  EXPECT_NEAR(upper.area, 1, 1e-5);
+}
+
+TEST(SurfaceRepresentation, ABudgetOfTrianglesKeepsPoints) {
+  const TwoPlanes planes(2);
+  RepresentationOptions options;
+  options.introducedTriangles = 32 * 15 - 1;
+  EXPECT_EQ(ChooseRepresentations(planes.mesh, planes.solution, options)[planes.Upper()].chosen,
+            Representation::LightMap);
+  options.introducedTriangles = 32 * 15;
+  EXPECT_EQ(ChooseRepresentations(planes.mesh, planes.solution, options)[planes.Upper()].chosen,
+            Representation::Points);
+}
+
+TEST(SurfaceRepresentation, WhatIsWantedStands) {
+  const TwoPlanes planes(2);
+  RepresentationOptions options;
+  options.wanted.assign(2, Representation::LightMap);
+  options.wanted[planes.Upper()] = Representation::Points;
+  const auto costs = ChooseRepresentations(planes.mesh, planes.solution, options);
+  EXPECT_EQ(costs[planes.Upper()].chosen, Representation::Points);
+  EXPECT_EQ(costs[1 - planes.Upper()].chosen, Representation::LightMap);
+}
+
+TEST(SurfaceRepresentation, ShowsTheLightOfTheSolutionEitherWay) {
+  const TwoPlanes planes(3);
+  const RepresentedScene scene =
+      RepresentSurfaces(planes.mesh, planes.tree, planes.solution, {}, Page());
+
+  // The lower plane as it is.
+  EXPECT_EQ(scene.points.mesh.FaceCount(), 32);
+  for (size_t p = 0; p < scene.points.mesh.positions.size(); ++p) {
+    EXPECT_EQ(scene.points.mesh.positions[p].z, 0);
+    EXPECT_TRUE(scene.points.irradiance[p] == Strip(scene.points.mesh.positions[p]));
+  }
+
+  // The upper one on a page of its own, far truer than its 25 points, whose strip falls between.
+  const SurfaceCost& upper = scene.surfaces[planes.Upper()];
+  EXPECT_EQ(scene.mapped.mesh.FaceCount(), 32);
+  EXPECT_EQ(scene.mapped.tree.surfaceRoots.size(), 1u);
+  EXPECT_EQ(scene.atlas.pages, 1);
+  EXPECT_NEAR(upper.texels, 1 / (scene.atlas.texelSize * scene.atlas.texelSize), 1);
+  EXPECT_GT(upper.inputPointError, 0.2);
+  EXPECT_LT(upper.mapError, 0.02);  // Cells of the solution are seven texels wide.
+  EXPECT_EQ(scene.surfaces[1 - planes.Upper()].texels, 0);
+}
+
+TEST(SurfaceRepresentation, NothingIsMappedWhereNothingWasRefined) {
+  const TwoPlanes planes(0);
+  const RepresentedScene scene =
+      RepresentSurfaces(planes.mesh, planes.tree, planes.solution, {}, Page());
+  EXPECT_EQ(scene.points.mesh.FaceCount(), 64);
+  EXPECT_EQ(scene.mapped.mesh.FaceCount(), 0);
+  EXPECT_EQ(scene.atlas.pages, 0);
+}
+
+TEST(SurfaceRepresentation, RefusesOptionsThatDoNotFit) {
+  const TwoPlanes planes(0);
+  RepresentationOptions options;
+  options.wanted.assign(3, Representation::Points);
+  EXPECT_THROW(ChooseRepresentations(planes.mesh, planes.solution, options), Error);
+  EXPECT_THROW(ChooseRepresentations(planes.mesh, planes.solution, {-1, {}}), Error);
+  TriangleMesh unclustered = planes.mesh;
+  unclustered.surfaceId.clear();
+  EXPECT_THROW(ChooseRepresentations(unclustered, planes.solution, {}), Error);
+}
+
+}  // namespace
+}  // namespace lambert

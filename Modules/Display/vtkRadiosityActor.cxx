@@ -1,0 +1,239 @@
+#include "vtkRadiosityActor.h"
+
+#include "Common/Core/Error.h"
+#include "Display/Core/PointAppearance.h"
+#include "RadiosityShader.h"
+#include "vtkCellData.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkRadiosityArrays.h"
+#include "vtkRadiosityToneMapping.h"
+#include "vtkShaderProperty.h"
+#include "vtkTexture.h"
+#include "vtkTriangleMeshAdapter.h"
+
+#include <algorithm>
+#include <string>
+
+vtkStandardNewMacro(vtkRadiosityActor);
+
+namespace {
+using Names = vtkRadiosityArrays;
+
+/// Tuples of `Tuple`, floats without gaps, from an array; none where there is no such array.
+template <class Tuple>
+std::vector<Tuple> Tuples(vtkDataArray* array) {
+  constexpr int kComponents = sizeof(Tuple) / sizeof(float);
+  if (!array) {
+    return {};
+  }
+  if (array->GetNumberOfComponents() != kComponents) {
+    throw lambert::Error("The array " + std::string(array->GetName() ? array->GetName() : "") +
+                         " needs " + std::to_string(kComponents) + " components.");
+  }
+  vtkNew<vtkFloatArray> floats;
+  floats->DeepCopy(array);
+  std::vector<Tuple> tuples(static_cast<size_t>(array->GetNumberOfTuples()));
+  std::copy_n(floats->GetPointer(0), floats->GetNumberOfValues(),
+              reinterpret_cast<float*>(tuples.data()));
+  return tuples;
+}
+
+template <class Tuple>
+vtkSmartPointer<vtkFloatArray> ArrayOf(const char* name, const std::vector<Tuple>& tuples) {
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(sizeof(Tuple) / sizeof(float));
+  array->SetNumberOfTuples(static_cast<vtkIdType>(tuples.size()));
+  std::copy_n(reinterpret_cast<const float*>(tuples.data()), array->GetNumberOfValues(),
+              array->GetPointer(0));
+  return array;
+}
+
+/// Vertex attributes of the shader and the arrays that they are read from.
+constexpr std::pair<const char*, const char*> kAttributes[] = {
+    {"vertexRadiosityMC", "Shown.VertexRadiosity"},
+    {"vertexIrradianceMC", "Shown.VertexIrradiance"},
+    {"reflectanceMC", "Shown.Reflectance"},
+    {"lightMapCoordsMC", "Shown.LightMapTCoords"}};
+
+lambert::PointLight LightOf(vtkPolyData* mesh, int pages) {
+  vtkPointData* points = mesh->GetPointData();
+  lambert::PointLight light;
+  light.irradiance = Tuples<lambert::Spectrum>(points->GetArray(Names::Irradiance()));
+  light.radiosity = Tuples<lambert::Spectrum>(points->GetArray(Names::Radiosity()));
+  light.lightMapCoords = Tuples<lambert::Vec2f>(points->GetArray(Names::LightMapTCoords()));
+  light.pages = pages;
+  if (vtkDataArray* page = mesh->GetCellData()->GetArray(Names::PageId())) {
+    for (vtkIdType cell = 0; cell < page->GetNumberOfTuples(); ++cell) {
+      light.page.push_back(static_cast<int32_t>(page->GetComponent(cell, 0)));
+    }
+  }
+  return light;
+}
+}  // namespace
+
+vtkRadiosityActor::vtkRadiosityActor()
+    : ToneMapping(vtkRadiosityToneMapping::New()),
+      Drawn(vtkSmartPointer<vtkPolyData>::New()),
+      LightMapper(vtkSmartPointer<vtkPolyDataMapper>::New()),
+      LightMapTexture(vtkSmartPointer<vtkTexture>::New()),
+      LightMap(new lambert::LightImage) {
+  // One state for all.
+  this->LightMapper->ScalarVisibilityOff();
+  for (const auto& [attribute, array] : kAttributes) {
+    this->LightMapper->MapDataArrayToVertexAttribute(attribute, array,
+                                                     vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
+  }
+  this->LightMapper->SetInputData(this->Drawn);
+  this->SetMapper(this->LightMapper);
+
+  // A light map as it is, black outside.
+  this->LightMapTexture->SetColorModeToDirectScalars();
+  this->LightMapTexture->InterpolateOn();
+  this->LightMapTexture->SetWrap(vtkTexture::ClampToBorder);
+  this->LightMapTexture->SetBorderColor(0, 0, 0, 0);
+}
+
+vtkRadiosityActor::~vtkRadiosityActor() { this->ToneMapping->Delete(); }
+
+void vtkRadiosityActor::SetInputData(vtkPolyData* mesh) {
+  this->Mesh = mesh;
+  this->InputTime.Modified();
+  this->Modified();
+}
+
+vtkPolyData* vtkRadiosityActor::GetInputData() { return this->Mesh; }
+
+void vtkRadiosityActor::AddLightMapPage(vtkImageData* page) {
+  this->Pages.emplace_back(page);
+  this->InputTime.Modified();
+  this->Modified();
+}
+
+void vtkRadiosityActor::RemoveLightMap() {
+  this->Pages.clear();
+  this->InputTime.Modified();
+  this->Modified();
+}
+
+vtkTexture* vtkRadiosityActor::BaseTexture(const char** sampler) {
+  vtkTexture* baseColor = this->GetProperty()->GetInterpolation() == VTK_PBR
+                              ? this->GetProperty()->GetTexture("albedoTex")
+                              : nullptr;
+  *sampler = baseColor ? "albedoTex" : "actortexture";
+  vtkTexture* texture = baseColor ? baseColor : this->GetTexture();
+  return this->Mesh->GetPointData()->GetTCoords() ? texture : nullptr;
+}
+
+bool vtkRadiosityActor::Update() {
+  if (!this->Mesh || this->Mesh->GetNumberOfPoints() == 0) {
+    this->Drawn->Initialize();
+    return false;
+  }
+  try {
+    const char* sampler = nullptr;
+    const bool isTextured = this->BaseTexture(&sampler) != nullptr;
+    if (std::max(this->InputTime.GetMTime(), this->Mesh->GetMTime()) > this->AppearanceTime ||
+        isTextured != this->IsTextured) {
+      this->IsTextured = isTextured;
+      this->UpdateLightMap();
+      this->UpdateAppearance();
+      this->AppearanceTime.Modified();
+    }
+    this->UpdateShader();
+    return true;
+  } catch (const std::exception& error) {
+    this->Drawn->Initialize();
+    vtkErrorMacro(<< error.what());
+    return false;
+  }
+}
+
+void vtkRadiosityActor::UpdateLightMap() {
+  *this->LightMap = {};
+  this->GetProperty()->RemoveTexture("lightMap");
+  if (this->Pages.empty()) {
+    return;
+  }
+
+  // The pages one above the other.
+  const int* size = this->Pages[0]->GetDimensions();
+  this->LightMap->width = size[0];
+  this->LightMap->height = size[1] * static_cast<int>(this->Pages.size());
+  for (const auto& page : this->Pages) {
+    if (!std::equal(size, size + 3, page->GetDimensions()) || !page->GetPointData()->GetScalars()) {
+      throw lambert::Error("The pages of a light map need light in them and one size for all.");
+    }
+    const auto light = Tuples<lambert::Spectrum>(page->GetPointData()->GetScalars());
+    this->LightMap->pixels.insert(this->LightMap->pixels.end(), light.begin(), light.end());
+  }
+
+  // As a texture of floats.
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(this->LightMap->width, this->LightMap->height, 1);
+  image->GetPointData()->SetScalars(ArrayOf("Irradiance", this->LightMap->pixels));
+  this->LightMapTexture->SetInputData(image);
+  this->GetProperty()->SetTexture("lightMap", this->LightMapTexture);
+}
+
+void vtkRadiosityActor::UpdateAppearance() {
+  // What the points bring.
+  const lambert::TriangleMesh mesh = lambert::TriangleMeshFromPolyData(this->Mesh);
+  const lambert::PointAppearance appearance = lambert::MakePointAppearance(
+      mesh, LightOf(this->Mesh, this->GetNumberOfLightMapPages()), this->IsTextured);
+  this->Drawn->Initialize();
+  this->Drawn->CopyStructure(this->Mesh);
+  vtkPointData* points = this->Drawn->GetPointData();
+  points->SetNormals(this->Mesh->GetPointData()->GetNormals());
+  points->SetTCoords(this->Mesh->GetPointData()->GetTCoords());
+  points->AddArray(ArrayOf(kAttributes[0].second, appearance.vertexRadiosity));
+  points->AddArray(ArrayOf(kAttributes[1].second, appearance.vertexIrradiance));
+  points->AddArray(ArrayOf(kAttributes[2].second, appearance.reflectance));
+  points->AddArray(ArrayOf(kAttributes[3].second, appearance.lightMapCoords));
+
+  // What the eye adapts to, and the sides that are there.
+  this->Samples = lambert::ShownSamples(mesh, appearance, *this->LightMap);
+  this->GetProperty()->SetBackfaceCulling(this->Mesh->GetCellData()->HasArray(Names::Side()));
+}
+
+void vtkRadiosityActor::UpdateShader() {
+  // What it is made of.
+  const char* sampler = nullptr;
+  vtkTexture* base = this->BaseTexture(&sampler);
+  lambert::RadiosityShaderParts parts;
+  parts.lightMap = !this->Pages.empty();
+  parts.baseTexture = base ? sampler : "";
+  parts.isBaseEncoded = base && !base->GetUseSRGBColorSpace();
+  parts.isPhysicallyBased = this->GetProperty()->GetInterpolation() == VTK_PBR;
+  lambert::ReplaceDiffuseLight(parts, this->GetShaderProperty());
+
+  // Exposure.
+  if (std::max(this->AppearanceTime.GetMTime(), this->ToneMapping->GetMTime()) >
+      this->ExposureTime) {
+    this->Exposure.reset(new lambert::ToneMapping(this->ToneMapping->Adapt(this->Samples)));
+    this->ExposureTime.Modified();
+  }
+  lambert::SetExposure(*this->Exposure, this->LinearLight, this->GetShaderProperty());
+}
+
+int vtkRadiosityActor::RenderOpaqueGeometry(vtkViewport* viewport) {
+  return this->Update() ? this->Superclass::RenderOpaqueGeometry(viewport) : 0;
+}
+
+double* vtkRadiosityActor::GetBounds() {
+  this->Update();
+  return this->Superclass::GetBounds();
+}
+
+void vtkRadiosityActor::PrintSelf(ostream& os, vtkIndent indent) {
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "LightMapPages: " << this->Pages.size() << "\n"
+     << indent << "LinearLight: " << this->LinearLight << "\n";
+}
