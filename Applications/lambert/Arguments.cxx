@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "Engine/LightMapFile.h"
+#include "Engine/LitModelFile.h"
 #include "Engine/SolutionFile.h"
 
 namespace lambert {
@@ -174,7 +175,7 @@ void SolveArguments::AddTo(CLI::App* command) {
   scene.AddTo(command);
 
   // How, how well and how long.
-  command->add_option("-o,--output", output, "Solved scene, .vtp or .ply")->required();
+  command->add_option("-o,--output", output, "Solved scene, .vtp, .ply, .glb or .gltf")->required();
   std::vector<std::string> names;
   for (const SolveMethodTraits& traits : SolveMethods()) names.push_back(traits.name);
   command
@@ -251,8 +252,8 @@ void SolveArguments::AddTo(CLI::App* command) {
 
 void SolveArguments::Check() const {
   RequireOptionsOfMethod();
-  if (!IsSolutionFileName(output)) {
-    throw CLI::ValidationError("--output", "the name has to end in .vtp or .ply");
+  if (!IsSolutionFileName(output) && !IsLitModelFileName(output)) {
+    throw CLI::ValidationError("--output", "the name has to end in .vtp, .ply, .glb or .gltf");
   }
   if (probe.empty() != probeOutput.empty()) {
     throw CLI::ValidationError("--probe", "--probe and --probe-output belong together");

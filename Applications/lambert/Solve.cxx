@@ -10,6 +10,7 @@
 #include "Common/Core/Timer.h"
 #include "Display/vtkRadiosityImageWriter.h"
 #include "Engine/LightMapFile.h"
+#include "Engine/LitModelFile.h"
 #include "Engine/ProbeFile.h"
 #include "Engine/RunReport.h"
 #include "Engine/SolutionFile.h"
@@ -65,6 +66,17 @@ void ReadProbes(const SolveArguments& arguments, const RadiosityRun& run,
                  ReadIrradianceProbes(run.GetScene(), rays, run.Solution(), points, options));
 }
 
+/// The solution with its numbers, or the model that viewers draw.
+void WriteOutput(const SolveArguments& arguments, RadiosityRun* run) {
+  if (!IsLitModelFileName(arguments.output)) {
+    WriteSolution(run->Solution(), run->GetScene(), arguments.output, arguments.exposure,
+                  arguments.bothSides);
+    return;
+  }
+  run->DrawModel(arguments.exposure, arguments.ImageCamera());
+  WriteLitModel(*run->DrawnModel(), arguments.output);
+}
+
 /// An interrupt leaves it out.
 void DrawLightMap(const SolveArguments& arguments, const ProgressCallback& progress,
                   ProgressDisplay* display, RadiosityRun* run) {
@@ -110,6 +122,11 @@ void PrintSummary(const SolveArguments& arguments, const RadiosityRun& run) {
         arguments.lightMap.c_str(), run.Atlas().set.charts.size(), run.Atlas().pages, map.pageSize,
         run.Atlas().texelSize, 100 * map.after.rms, 100 * map.after.largest, 100 * map.before.rms,
         100 * map.before.largest);
+  }
+  if (run.DrawnModel() && run.DrawnModel()->clippedPoints + run.DrawnModel()->clippedTexels > 0) {
+    std::printf("brighter than the display: %lld points, %lld texels\n",
+                static_cast<long long>(run.DrawnModel()->clippedPoints),
+                static_cast<long long>(run.DrawnModel()->clippedTexels));
   }
   if (run.Error() && run.Error()->points > 0) {
     const SolutionError& e = *run.Error();
@@ -159,15 +176,12 @@ int Solve(const SolveArguments& arguments) {
   if (IsInterrupted()) display.Say("Interrupted: writing what has been solved.");
 
   // Outputs.
-  Stage("write", &display, &run, [&] {
-    WriteSolution(run.Solution(), run.GetScene(), arguments.output, arguments.exposure,
-                  arguments.bothSides);
-  });
-  if (!arguments.probe.empty()) {
-    Stage("probe", &display, &run, [&] { ReadProbes(arguments, run, probes); });
-  }
   if (!arguments.lightMap.empty() && !IsInterrupted()) {
     DrawLightMap(arguments, progress, &display, &run);
+  }
+  Stage("write", &display, &run, [&] { WriteOutput(arguments, &run); });
+  if (!arguments.probe.empty()) {
+    Stage("probe", &display, &run, [&] { ReadProbes(arguments, run, probes); });
   }
   if (!arguments.image.empty()) {
     Stage("image", &display, &run, [&] { WriteImage(arguments, run); });

@@ -199,6 +199,15 @@ void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
   this->AddStage("light map", timer.Seconds());
 }
 
+void RadiosityRun::DrawModel(double exposure, const std::optional<Camera>& camera) {
+  this->model_ = this->lightMap_ ? MakeLitModel(this->scene_, this->solution_, this->atlas_,
+                                                *this->lightMap_, exposure)
+                                 : MakeLitModel(this->scene_, this->solution_, exposure);
+  if (camera) {
+    this->model_->camera = *camera;
+  }
+}
+
 void RadiosityRun::Verify(int points, const ProgressCallback& progress) {
   Timer timer;
   SolutionErrorOptions options;

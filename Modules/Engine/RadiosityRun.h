@@ -5,6 +5,7 @@
 #include "Atlas/Core/LightMap.h"
 #include "Clustering/Core/FaceClustering.h"
 #include "Common/Core/Progress.h"
+#include "LitModel.h"
 #include "Radiosity/Core/HierarchicalRadiosity.h"
 #include "Reference/Core/SolutionError.h"
 #include "Scene/Core/RadiositySolution.h"
@@ -58,6 +59,9 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   void LayFlat(const ProgressCallback& progress = {});
   /// Lays the scene flat and draws the solution into its texels. Throws as LayFlat does.
   void DrawLightMap(const ProgressCallback& progress = {});
+  /// Makes what viewers draw: of the light map where there is one, else of the points. The camera
+  /// is `camera`, else that of the scene, else one that is chosen; `exposure` in stops (EV).
+  void DrawModel(double exposure = 0, const std::optional<Camera>& camera = {});
   /// Measures how far the solution is from a path-traced reference at `points` points; with up to
   /// four times the paths where those leave open whether the request is met.
   void Verify(int points, const ProgressCallback& progress = {});
@@ -72,6 +76,7 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   const std::optional<SolutionError>& Error() const { return this->error_; }
   const RadiosityAtlas& Atlas() const { return this->atlas_; }
   const std::optional<LightMap>& DrawnLightMap() const { return this->lightMap_; }
+  const std::optional<LitModel>& DrawnModel() const { return this->model_; }
   /// What the user should know, one sentence each, of every stage.
   std::vector<std::string> Warnings() const;
 
@@ -95,6 +100,7 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   std::optional<SolutionError> error_;
   RadiosityAtlas atlas_;
   std::optional<LightMap> lightMap_;
+  std::optional<LitModel> model_;
   std::vector<std::pair<std::string, double>> stages_;
 };
 }  // namespace lambert

@@ -198,6 +198,13 @@ std::string RunReportJson(const RadiosityRun& run, const std::string& version) {
         {"seam_points", map.seamPoints},           {"seams_before", seams(map.before)},
         {"seams_after", seams(map.after)}};
   }
+  if (run.DrawnModel()) {
+    const LitModel& model = *run.DrawnModel();
+    report["lit_model"] = {{"meshes", model.meshes.size()},
+                           {"images", model.images.size()},
+                           {"clipped_points", model.clippedPoints},
+                           {"clipped_texels", model.clippedTexels}};
+  }
   report["output"] = {{"triangles", run.Solution().mesh.FaceCount()},
                       {"points", run.Solution().mesh.PointCount()}};
   if (run.Error()) {

@@ -45,22 +45,6 @@ struct Canvas {
   std::vector<uint8_t> isFilled;
 };
 
-/// By surface: the side on which more light arrives.
-std::vector<uint8_t> BrighterSides(const TriangleMesh& mesh, const RadiositySolution& solution) {
-  std::vector<std::array<double, 2>> light;
-  for (size_t t = 0; t < solution.mesh.triangles.size(); ++t) {
-    const size_t surface = size_t(mesh.surfaceId[size_t(solution.inputFaceId[t])]);
-    if (surface >= light.size()) light.resize(surface + 1);
-    const double area = double(solution.mesh.Area(int64_t(t)));
-    for (const int32_t p : solution.mesh.triangles[t]) {
-      light[surface][solution.side[t]] += area * double(solution.irradiance[size_t(p)].Mean());
-    }
-  }
-  std::vector<uint8_t> sides(light.size());
-  for (size_t s = 0; s < light.size(); ++s) sides[s] = light[s][kBack] > light[s][kFront];
-  return sides;
-}
-
 /// Where points of the solution lie on the page of their face, by barycentrics (5.2.5).
 class PlaceInFace {
  public:
@@ -93,7 +77,7 @@ class PlaceInFace {
 void Rasterize(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
                const std::vector<int32_t>& chartOfFace, const RadiositySolution& solution,
                std::vector<Canvas>* canvases) {
-  const std::vector<uint8_t> sides = BrighterSides(mesh, solution);
+  const std::vector<uint8_t> sides = BrighterSidesOfSurfaces(mesh, solution);
   const int size = atlas.pageSize;
   struct Splat {
     int32_t page;
@@ -331,6 +315,22 @@ void CloseSeams(const std::vector<SeamPoint>& seams, double mean, LightMap* map)
 }
 
 }  // namespace
+
+std::vector<uint8_t> BrighterSidesOfSurfaces(const TriangleMesh& mesh,
+                                             const RadiositySolution& solution) {
+  std::vector<std::array<double, 2>> light;
+  for (size_t t = 0; t < solution.mesh.triangles.size(); ++t) {
+    const size_t surface = size_t(mesh.surfaceId[size_t(solution.inputFaceId[t])]);
+    if (surface >= light.size()) light.resize(surface + 1);
+    const double area = double(solution.mesh.Area(int64_t(t)));
+    for (const int32_t p : solution.mesh.triangles[t]) {
+      light[surface][solution.side[t]] += area * double(solution.irradiance[size_t(p)].Mean());
+    }
+  }
+  std::vector<uint8_t> sides(light.size());
+  for (size_t s = 0; s < light.size(); ++s) sides[s] = light[s][kBack] > light[s][kFront];
+  return sides;
+}
 
 LightMap MakeLightMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
                       const RadiositySolution& solution, const ProgressCallback& progress) {

@@ -34,6 +34,10 @@ struct LightMap {
 LightMap MakeLightMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
                       const RadiositySolution& solution, const ProgressCallback& progress = {});
 
+/// Of every surface of `mesh` the side that shows in a light map, by mean irradiance.
+std::vector<uint8_t> BrighterSidesOfSurfaces(const TriangleMesh& mesh,
+                                             const RadiositySolution& solution);
+
 /// Bilinear lookup between the middles of texels; texture coordinates in [0, 1], v upward.
 Spectrum Lookup(const LightMap& map, int page, const Vec2f& textureCoords);
 
