@@ -175,7 +175,8 @@ void SolveArguments::AddTo(CLI::App* command) {
   scene.AddTo(command);
 
   // How, how well and how long.
-  command->add_option("-o,--output", output, "Solved scene, .vtp, .ply, .glb or .gltf")->required();
+  command->add_option("-o,--output", output, "Solved scene, .vtp, .ply, .glb, .gltf or .html")
+      ->required();
   std::vector<std::string> names;
   for (const SolveMethodTraits& traits : SolveMethods()) names.push_back(traits.name);
   command
@@ -253,7 +254,8 @@ void SolveArguments::AddTo(CLI::App* command) {
 void SolveArguments::Check() const {
   RequireOptionsOfMethod();
   if (!IsSolutionFileName(output) && !IsLitModelFileName(output)) {
-    throw CLI::ValidationError("--output", "the name has to end in .vtp, .ply, .glb or .gltf");
+    throw CLI::ValidationError("--output",
+                               "the name has to end in .vtp, .ply, .glb, .gltf or .html");
   }
   if (probe.empty() != probeOutput.empty()) {
     throw CLI::ValidationError("--probe", "--probe and --probe-output belong together");

@@ -9,6 +9,7 @@
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Timer.h"
 #include "Display/vtkRadiosityImageWriter.h"
+#include "Engine/HtmlFile.h"
 #include "Engine/LightMapFile.h"
 #include "Engine/LitModelFile.h"
 #include "Engine/ProbeFile.h"
@@ -27,6 +28,7 @@ void CheckOutputs(const SolveArguments& arguments) {
                                   arguments.probeOutput, arguments.lightMap}) {
     if (!name.empty()) RequireWritable(name);
   }
+  if (FileEnding(arguments.output) == ".html") RequireHtmlPage();
   if (!arguments.image.empty() && !vtkRadiosityImageWriter::IsDisplayAvailable()) {
     throw Error("Drawing a picture needs an X display and none answers: run under xvfb-run.");
   }

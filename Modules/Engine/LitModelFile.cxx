@@ -2,6 +2,7 @@
 
 #include "Common/Core/Error.h"
 #include "GltfFile.h"
+#include "HtmlFile.h"
 #include "SolutionFile.h"
 
 #include <fstream>
@@ -19,10 +20,15 @@ void WriteBytes(const std::string& bytes, const std::string& fileName) {
 
 bool IsLitModelFileName(const std::string& fileName) {
   const std::string ending = FileEnding(fileName);
-  return ending == ".glb" || ending == ".gltf";
+  return ending == ".glb" || ending == ".gltf" || ending == ".html";
 }
 
 void WriteLitModel(const LitModel& model, const std::string& fileName) {
-  WriteBytes(FileEnding(fileName) == ".glb" ? GlbOf(model) : GltfOf(model), fileName);
+  const std::string ending = FileEnding(fileName);
+  if (ending == ".html") {
+    WriteBytes(HtmlOf(model), fileName);
+  } else {
+    WriteBytes(ending == ".glb" ? GlbOf(model) : GltfOf(model), fileName);
+  }
 }
 }  // namespace lambert
