@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "Engine/LightMapFile.h"
+#include "Engine/LitModelFile.h"
 #include "Engine/SolutionFile.h"
 
 namespace lambert {
@@ -253,7 +254,8 @@ void SolveArguments::AddTo(CLI::App* command) {
   scene.AddTo(command);
 
   // How, how well and how long.
-  command->add_option("-o,--output", output, "Solved scene, .vtp or .ply")->required();
+  command->add_option("-o,--output", output, "Solved scene, .vtp, .ply, .glb, .gltf or .html")
+      ->required();
   std::vector<std::string> names;
   for (const SolveMethodTraits& traits : SolveMethods()) names.push_back(traits.name);
   command
@@ -333,8 +335,14 @@ void SolveArguments::AddTo(CLI::App* command) {
 
 void SolveArguments::Check() const {
   RequireOptionsOfMethod();
-  if (!IsSolutionFileName(output)) {
-    throw CLI::ValidationError("--output", "the name has to end in .vtp or .ply");
+  if (!IsSolutionFileName(output) && !IsLitModelFileName(output)) {
+    throw CLI::ValidationError("--output",
+                               "the name has to end in .vtp, .ply, .glb, .gltf or .html");
+  }
+  if (IsLitModelFileName(output) && (introducedTriangles || !representations.empty())) {
+    throw CLI::ValidationError("--output",
+                               "glTF and HTML show all surfaces in one way; leave --introduced and "
+                               "--represent to .vtp and .ply");
   }
   if (probe.empty() != probeOutput.empty()) {
     throw CLI::ValidationError("--probe", "--probe and --probe-output belong together");

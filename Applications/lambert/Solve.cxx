@@ -10,7 +10,9 @@
 #include "Common/Core/Timer.h"
 #include "Display/vtkRadiosityImageWriter.h"
 #include "Display/vtkRadiosityToneMapping.h"
+#include "Engine/HtmlFile.h"
 #include "Engine/LightMapFile.h"
+#include "Engine/LitModelFile.h"
 #include "Engine/ProbeFile.h"
 #include "Engine/RunReport.h"
 #include "Engine/SolutionFile.h"
@@ -27,6 +29,7 @@ void CheckOutputs(const SolveArguments& arguments) {
                                   arguments.probeOutput, arguments.lightMap}) {
     if (!name.empty()) RequireWritable(name);
   }
+  if (FileEnding(arguments.output) == ".html") RequireHtmlPage();
   if (!arguments.image.empty() && !vtkRadiosityImageWriter::IsDisplayAvailable()) {
     throw Error("Drawing a picture needs an X display and none answers: run under xvfb-run.");
   }
@@ -79,6 +82,18 @@ void ReadProbes(const SolveArguments& arguments, const RadiosityRun& run,
                  ReadIrradianceProbes(run.GetScene(), rays, run.Solution(), points, options));
 }
 
+/// The solution with its numbers, or the model that viewers draw.
+void WriteOutput(const SolveArguments& arguments, RadiosityRun* run) {
+  if (!IsLitModelFileName(arguments.output)) {
+    WriteSolution(run->Solution(), run->GetScene(), arguments.output, arguments.tone,
+                  arguments.bothSides);
+    return;
+  }
+  const UpAxis up = arguments.ImageUp(run->GetScene().mesh);
+  run->DrawModel(arguments.tone, arguments.ImageCamera(up));
+  WriteLitModel(*run->DrawnModel(), arguments.output);
+}
+
 /// An interrupt leaves it out.
 void DrawLightMap(const SolveArguments& arguments, const ProgressCallback& progress,
                   ProgressDisplay* display, RadiosityRun* run) {
@@ -129,6 +144,11 @@ void PrintSummary(const SolveArguments& arguments, const RadiosityRun& run) {
         run.Atlas().texelSize, 100 * map.after.rms, 100 * map.after.largest, 100 * map.before.rms,
         100 * map.before.largest);
   }
+  if (run.DrawnModel() && run.DrawnModel()->clippedPoints + run.DrawnModel()->clippedTexels > 0) {
+    std::printf("brighter than the display: %lld points, %lld texels\n",
+                static_cast<long long>(run.DrawnModel()->clippedPoints),
+                static_cast<long long>(run.DrawnModel()->clippedTexels));
+  }
   if (run.Error() && run.Error()->points > 0) {
     const SolutionError& e = *run.Error();
     std::printf("measured error: rms %.4f [%.4f, %.4f], bounded %.4f, bias %+.4f at %lld points\n",
@@ -177,15 +197,12 @@ int Solve(const SolveArguments& arguments) {
   if (IsInterrupted()) display.Say("Interrupted: writing what has been solved.");
 
   // Outputs.
-  Stage("write", &display, &run, [&] {
-    WriteSolution(run.Solution(), run.GetScene(), arguments.output, arguments.tone,
-                  arguments.bothSides);
-  });
-  if (!arguments.probe.empty()) {
-    Stage("probe", &display, &run, [&] { ReadProbes(arguments, run, probes); });
-  }
   if (!arguments.lightMap.empty() && !IsInterrupted()) {
     DrawLightMap(arguments, progress, &display, &run);
+  }
+  Stage("write", &display, &run, [&] { WriteOutput(arguments, &run); });
+  if (!arguments.probe.empty()) {
+    Stage("probe", &display, &run, [&] { ReadProbes(arguments, run, probes); });
   }
   if (!arguments.image.empty()) {
     Stage("image", &display, &run, [&] { WriteImage(arguments, run); });

@@ -241,6 +241,15 @@ void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
   this->AddStage("light map", timer.Seconds());
 }
 
+void RadiosityRun::DrawModel(const ToneMappingOptions& tone, const std::optional<Camera>& camera) {
+  this->model_ = this->lightMap_ ? MakeLitModel(this->scene_, this->solution_, this->atlas_,
+                                                *this->lightMap_, tone)
+                                 : MakeLitModel(this->scene_, this->solution_, tone);
+  if (camera) {
+    this->model_->camera = *camera;
+  }
+}
+
 void RadiosityRun::Verify(int points, const ProgressCallback& progress) {
   Timer timer;
   SolutionErrorOptions options;

@@ -6,6 +6,7 @@
 #include "Atlas/Core/SurfaceRepresentation.h"
 #include "Clustering/Core/FaceClustering.h"
 #include "Common/Core/Progress.h"
+#include "LitModel.h"
 #include "Radiosity/Core/HierarchicalRadiosity.h"
 #include "Reference/Core/SolutionError.h"
 #include "Scene/Core/RadiositySolution.h"
@@ -64,6 +65,10 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   void LayFlat(const ProgressCallback& progress = {});
   /// Lays the scene flat and draws the solution into its texels. Throws as LayFlat does.
   void DrawLightMap(const ProgressCallback& progress = {});
+  /// Makes what viewers draw: of the light map where there is one, else of the points. The camera
+  /// is `camera`, else that of the scene, else one that is chosen. Not where surfaces are
+  /// represented in both ways.
+  void DrawModel(const ToneMappingOptions& tone = {}, const std::optional<Camera>& camera = {});
   /// Measures how far the solution is from a path-traced reference at `points` points; with up to
   /// four times the paths where those leave open whether the request is met.
   void Verify(int points, const ProgressCallback& progress = {});
@@ -81,6 +86,7 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   /// the light map.
   const std::optional<RepresentedScene>& Represented() const { return this->represented_; }
   const std::optional<LightMap>& DrawnLightMap() const { return this->lightMap_; }
+  const std::optional<LitModel>& DrawnModel() const { return this->model_; }
   /// What the user should know, one sentence each, of every stage.
   std::vector<std::string> Warnings() const;
 
@@ -107,6 +113,7 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   RadiosityAtlas atlas_;
   std::optional<LightMap> lightMap_;
   std::optional<RepresentedScene> represented_;
+  std::optional<LitModel> model_;
   std::vector<std::pair<std::string, double>> stages_;
 };
 }  // namespace lambert

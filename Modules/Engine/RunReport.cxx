@@ -235,6 +235,13 @@ std::string RunReportJson(const RadiosityRun& run, const std::string& version) {
         {"seams_after", seams(map.after)}};
   }
   if (run.Represented()) report["representation"] = RepresentationJson(run);
+  if (run.DrawnModel()) {
+    const LitModel& model = *run.DrawnModel();
+    report["lit_model"] = {{"meshes", model.meshes.size()},
+                           {"images", model.images.size()},
+                           {"clipped_points", model.clippedPoints},
+                           {"clipped_texels", model.clippedTexels}};
+  }
   report["output"] = {{"triangles", run.Solution().mesh.FaceCount()},
                       {"points", run.Solution().mesh.PointCount()}};
   if (run.Error()) {

@@ -18,13 +18,6 @@ namespace lambert {
 namespace {
 namespace fs = std::filesystem;
 
-std::string Extension(const std::string& fileName) {
-  std::string extension = fs::path(fileName).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 bool EndsWith(const std::string& fileName, const std::string& end) {
   std::ifstream file(fileName, std::ios::binary);
   std::string tail(end.size(), ' ');
@@ -115,8 +108,15 @@ void WritePly(const RadiositySolution& solution, const std::string& fileName,
 }
 }  // namespace
 
+std::string FileEnding(const std::string& fileName) {
+  std::string ending = fs::path(fileName).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
 bool IsSolutionFileName(const std::string& fileName) {
-  return Extension(fileName) == ".vtp" || Extension(fileName) == ".ply";
+  return FileEnding(fileName) == ".vtp" || FileEnding(fileName) == ".ply";
 }
 
 void RequireWritable(const std::string& fileName) {
@@ -177,7 +177,7 @@ std::vector<int64_t> BrighterSides(const RadiositySolution& solution) {
 void WriteSolution(const RadiositySolution& solution, const Scene& scene,
                    const std::string& fileName, const ToneMappingOptions& toneMapping,
                    bool bothSides) {
-  if (Extension(fileName) == ".vtp") {
+  if (FileEnding(fileName) == ".vtp") {
     WriteVtp(solution, scene, fileName);
     return;
   }

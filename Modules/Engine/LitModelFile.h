@@ -1,0 +1,19 @@
+// Lit models as files of the formats that viewers read. C++ only.
+#ifndef LitModelFile_h
+#define LitModelFile_h
+
+#include "LitModel.h"
+
+#include <string>
+
+namespace lambert {
+/// True for the names that WriteLitModel can write: ending in .glb, .gltf or .html, in any
+/// case.
+LAMBERTENGINE_EXPORT bool IsLitModelFileName(const std::string& fileName);
+
+/// Writes by the ending: `.glb` and `.gltf` as GltfFile.h tells, `.html` as HtmlFile.h. Throws
+/// Error where the file cannot be written or its format cannot hold the model.
+LAMBERTENGINE_EXPORT void WriteLitModel(const LitModel& model, const std::string& fileName);
+}  // namespace lambert
+
+#endif
