@@ -189,6 +189,9 @@ void ReadLights(vtkFieldData* fields, std::vector<Light>* lights) {
     (c == 0 ? l[row].innerConeAngle : l[row].outerConeAngle) = static_cast<float>(value);
   });
   RequireSolvableLights(l);
+  for (Light& light : l) {
+    light.direction = Normalize(light.direction);
+  }
 }
 
 void WriteLights(const std::vector<Light>& l, vtkFieldData* fields) {
