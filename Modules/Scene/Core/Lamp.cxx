@@ -1,4 +1,4 @@
-// Lights at a place: point and spot.
+// Lights at a place: a point or a ball of even radiance, into all directions or within a cone.
 #include <cmath>
 
 #include "Scene/Core/LightKinds.h"
@@ -13,13 +13,18 @@ class Lamp : public LightSource {
 
   bool IsFar() const override { return false; }
   Spectrum Strength() const override { return light_.intensity; }
-  LightSample Sample(const Vec3f& x, const Vec2f& /*u*/) const override {
+  int Samples() const override { return light_.size > 0 ? kSamplesOfDisc : 1; }
+  /// Of a ball that holds `x` nothing is seen.
+  LightSample Sample(const Vec3f& x, const Vec2f& u) const override {
     const Vec3f offset = light_.position - x;
     const float distance = Length(offset);
-    if (!(distance > 0)) return {};
+    if (!(distance > light_.size)) return {};
     const Vec3f direction = offset / distance;
     const float factor = light_.ConeFactor(-direction) / (distance * distance);
-    return {direction, distance, light_.intensity * factor};
+    if (!(light_.size > 0)) return {direction, distance, light_.intensity * factor};
+    float cosine = 1;
+    const Vec3f toward = TowardDisc(direction, light_.size / distance, u, &cosine);
+    return {toward, distance * cosine, light_.intensity * (factor / cosine)};
   }
   float LargestTransfer(float nearest) const override {
     return 1 / std::max(nearest * nearest, 1e-20f);

@@ -18,6 +18,9 @@ struct Light {
   /// Point and spot: intensity W/sr. Directional: irradiance W/m2 on a facet that faces it. Sky:
   /// radiance W/(m2 sr).
   Spectrum intensity;
+  /// Point and spot: radius of the ball that shines, m. Directional: angular diameter, radians,
+  /// [0, pi).
+  float size = 0;
   float innerConeAngle = 0;               ///< spot: half-angle of full intensity, radians
   float outerConeAngle = float(kPi) / 4;  ///< spot: half-angle where it ends, radians
 

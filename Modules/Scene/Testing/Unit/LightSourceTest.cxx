@@ -54,6 +54,40 @@ TEST(LightSource, PointSpotAndDirectional) {
   EXPECT_NEAR(OpenIrradiance({sun}, {7, 8, 9}, {0, 0, 1}).g, 2 * 0.6f, 1e-6f);
 }
 
+// The disc of the sun is as bright as its size asks for: the irradiance of a facet that faces it is
+// the same for any size, and goes with the cosine as long as all of it is above the horizon.
+TEST(LightSource, ASunGivesTheSameForAnySize) {
+  Light sun = MakeLight(LightType::Directional, Spectrum(2.f));
+  sun.direction = Normalize(Vec3f(-4, 0, -3));
+  for (const float degrees : {0.f, 0.53f, 20.f, 60.f}) {
+    sun.size = degrees * float(kPi) / 180;
+    // 16 samples of the disc, whose cosines vary by its sine.
+    const float tolerance = 1e-6f + 0.1f * std::sin(sun.size / 2);
+    EXPECT_NEAR(OpenIrradiance({sun}, {}, {0, 0, 1}).g, 2 * 0.6f, tolerance);
+    EXPECT_NEAR(OpenIrradiance({sun}, {}, {0.8f, 0, 0.6f}).g, 2, 1e-6f);
+  }
+
+  // On the horizon half of it is left: of a disc of radius r at x from its middle, over the upper
+  // half, the mean of x is 4 r / (3 pi), and the half counts for a half.
+  sun.direction = {1, 0, 0};
+  sun.size = 0.2f;
+  EXPECT_NEAR(OpenIrradiance({sun}, {}, {0, 0, 1}).g, 2 * 2 * std::sin(0.1f) / (3 * float(kPi)),
+              0.1f * 2 * std::sin(0.1f));
+}
+
+// A ball of even radiance gives what a point of its intensity gives.
+TEST(LightSource, ABallGivesWhatAPointGives) {
+  Light ball = MakeLight(LightType::Point, Spectrum(50.f));
+  ball.position = {0, 0, 5};
+  for (const float radius : {0.f, 0.5f, 4.f}) {
+    ball.size = radius;
+    EXPECT_NEAR(OpenIrradiance({ball}, {}, {0, 0, 1}).g, 2, 1e-5f);
+    EXPECT_NEAR(OpenIrradiance({ball}, {}, {0.6f, 0, 0.8f}).g, 2 * 0.8f, 0.02f * radius + 1e-5f);
+  }
+  ball.size = 6;
+  EXPECT_EQ(OpenIrradiance({ball}, {}, {0, 0, 1}).g, 0) << "within it";
+}
+
 TEST(LightSource, ASkyGivesPiL) {
   const Light sky = MakeLight(LightType::Sky, {1, 2, 3});
   const Spectrum e = OpenIrradiance({sky}, {}, Normalize(Vec3f(1, 2, 3)));
