@@ -3,12 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <limits>
 #include <map>
-#include <sstream>
 
+#include "ArgumentChecks.h"
 #include "Engine/LightMapFile.h"
 #include "Engine/LitModelFile.h"
 #include "Engine/SolutionFile.h"
@@ -20,40 +18,11 @@ const std::map<std::string, double> kUnits{
     {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"in", 0.0254}, {"ft", 0.3048}};
 constexpr int kDefaultVerifyPoints = 2000;
 
-Spectrum ToSpectrum(const std::vector<float>& bands) { return {bands[0], bands[1], bands[2]}; }
-
-/// Numbers separated by `separator`; empty where any of them is not one.
-std::vector<double> ParseNumbers(const std::string& text, char separator) {
-  std::vector<double> numbers;
-  std::stringstream stream(text);
-  for (std::string field; std::getline(stream, field, separator);) {
-    char* end = nullptr;
-    numbers.push_back(std::strtod(field.c_str(), &end));
-    if (field.empty() || *end || !std::isfinite(numbers.back())) return {};
-  }
-  return numbers;
-}
-
-/// A finite number from `low` to `high`. CLI11's own ranges let NaN pass.
-CLI::Validator Within(double low, double high, const std::string& description) {
-  return CLI::Validator(
-      [=](const std::string& text) {
-        const std::vector<double> number = ParseNumbers(text, ',');
-        const bool good = number.size() == 1 && number[0] >= low && number[0] <= high;
-        return good ? std::string() : "\"" + text + "\" is not a number " + description;
-      },
-      "");
-}
-
 /// Of a name that was checked to be one of a method.
 SolveMethod MethodOfName(const std::string& name) {
   return std::find_if(SolveMethods().begin(), SolveMethods().end(),
                       [&](const SolveMethodTraits& traits) { return traits.name == name; })
       ->method;
-}
-
-CLI::Validator NotNegative() {
-  return Within(0, std::numeric_limits<float>::max(), "of 0 or more");
 }
 
 void AddProgress(CLI::App* command, ProgressStyle* progress) {
@@ -303,9 +272,7 @@ void SolveArguments::AddTo(CLI::App* command) {
   command->add_option("--threads", threads, "Threads; 0: all processors")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
-  command->add_option("--sky", sky, "Radiance R G B of a constant sky, W/(m2 sr)")
-      ->expected(3)
-      ->check(NotNegative());
+  lights.AddTo(command);
 
   // What comes out beside the solution.
   command->add_option("--probe", probe, "CSV of probe points: x,y,z,nx,ny,nz");
@@ -314,7 +281,7 @@ void SolveArguments::AddTo(CLI::App* command) {
   command->add_option("--image", image, "PNG picture (needs an X display, xvfb-run will do)");
   command->add_option("--size", size, "Size of the picture, WxH pixels")->capture_default_str();
   command->add_option("--camera", camera, "px,py,pz,fx,fy,fz[,fov]: eye, point looked at, degrees");
-  command->add_option("--up", up, "What is up in the picture: auto, x, y, z")
+  command->add_option("--up", up, "What is up for picture, sun and skies: auto, x, y, z")
       ->check(CLI::IsMember({"auto", "x", "y", "z"}))
       ->capture_default_str();
   AddToneOptions(command, &tone, &dodgingAndBurning);
@@ -335,6 +302,7 @@ void SolveArguments::AddTo(CLI::App* command) {
 
 void SolveArguments::Check() const {
   RequireOptionsOfMethod();
+  lights.Check();
   if (!IsSolutionFileName(output) && !IsLitModelFileName(output)) {
     throw CLI::ValidationError("--output",
                                "the name has to end in .vtp, .ply, .glb, .gltf or .html");
@@ -391,7 +359,7 @@ std::array<int, 2> SolveArguments::ImageSize() const {
   return {int(numbers[0]), int(numbers[1])};
 }
 
-UpAxis SolveArguments::ImageUp(const TriangleMesh& mesh) const {
+UpAxis SolveArguments::UpOf(const TriangleMesh& mesh) const {
   static const std::map<std::string, UpAxis> kAxes{
       {"x", UpAxis::X}, {"y", UpAxis::Y}, {"z", UpAxis::Z}};
   if (up != "auto") return kAxes.at(up);
@@ -433,7 +401,6 @@ RadiosityRunOptions SolveArguments::RunOptions() const {
   options.method.reference.seed = options.method.cached.seed = seed;
   options.solver = solver;
   options.timeLimit = time;
-  if (!sky.empty()) options.sky = ToSpectrum(sky);
   if (!lightMap.empty()) options.atlas = atlas;
   options.introducedTriangles = introducedTriangles;
   options.representations = representations;

@@ -11,6 +11,7 @@
 #include "Display/Core/ToneMapping.h"
 #include "Display/Core/UpAxis.h"
 #include "Engine/RadiosityRun.h"
+#include "LightArguments.h"
 #include "Scene/Core/Scene.h"
 
 namespace CLI {
@@ -46,7 +47,7 @@ struct SolveArguments {
   HierarchicalRadiosityOptions solver;
   double time = 0;
   int threads = 0;
-  std::vector<float> sky;
+  LightArguments lights;
   std::string probe, probeOutput, image, size = "960x720", camera, up = "auto", report, lightMap;
   AtlasOptions atlas;
   std::optional<int64_t> introducedTriangles;
@@ -66,8 +67,9 @@ struct SolveArguments {
   void Check() const;
   /// Width and height in pixels.
   std::array<int, 2> ImageSize() const;
-  /// What is up in pictures of `mesh`: as asked for, y where all files are glTF, else guessed.
-  UpAxis ImageUp(const TriangleMesh& mesh) const;
+  /// What is up in `mesh`, for pictures, sun and skies: as asked for, y where all files are glTF,
+  /// else guessed.
+  UpAxis UpOf(const TriangleMesh& mesh) const;
   /// The camera that was asked for, if any.
   std::optional<Camera> ImageCamera(UpAxis imageUp) const;
   RadiosityRunOptions RunOptions() const;

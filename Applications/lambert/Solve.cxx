@@ -57,7 +57,7 @@ void WriteImage(const SolveArguments& arguments, const RadiosityRun& run) {
   writer->SetFileName(arguments.image.c_str());
 
   // The eye: as asked for, the file's, or one that the writer chooses.
-  const UpAxis axis = arguments.ImageUp(run.GetScene().mesh);
+  const UpAxis axis = arguments.UpOf(run.GetScene().mesh);
   const std::optional<Camera> asked = arguments.ImageCamera(axis);
   const std::optional<Camera> camera = asked ? asked : run.GetScene().camera;
   writer->SetUpAxis(static_cast<int>(axis));
@@ -89,7 +89,7 @@ void WriteOutput(const SolveArguments& arguments, RadiosityRun* run) {
                   arguments.bothSides);
     return;
   }
-  const UpAxis up = arguments.ImageUp(run->GetScene().mesh);
+  const UpAxis up = arguments.UpOf(run->GetScene().mesh);
   run->DrawModel(arguments.tone, arguments.ImageCamera(up));
   WriteLitModel(*run->DrawnModel(), arguments.output);
 }
@@ -186,6 +186,8 @@ int Solve(const SolveArguments& arguments) {
   RadiosityRun run(arguments.RunOptions());
   display.Begin("reading");
   run.Load(progress);
+  const UpAxis up = arguments.UpOf(run.GetScene().mesh);
+  run.AddLights(arguments.lights.Lights(Vec3f(FromYUp({0, 1, 0}, up))));
   for (const std::string& warning : run.Warnings()) display.Say("warning: " + warning);
   run.RequireLight();
   if (arguments.method.method == SolveMethod::Hierarchical || !arguments.lightMap.empty()) {

@@ -55,6 +55,7 @@ class LAMBERTCOMMON_EXPORT vtkRadiosityArrays : public vtkObject {
   static const char* LightPosition() { return "Light.Position"; }        ///< 3 float, m
   static const char* LightDirection() { return "Light.Direction"; }      ///< 3 float, unit
   static const char* LightIntensity() { return "Light.Intensity"; }      ///< W/sr, W/m2, W/(m2 sr)
+  static const char* LightSize() { return "Light.Size"; }  ///< radius, m; diameter, radians
   static const char* LightConeAngles() { return "Light.ConeAngles"; }    ///< 2 float, radians
   static const char* CameraPosition() { return "Camera.Position"; }      ///< 3 double, m
   static const char* CameraFocalPoint() { return "Camera.FocalPoint"; }  ///< 3 double, m

@@ -101,23 +101,18 @@ void RadiosityRun::Load(const ProgressCallback& progress) {
                            ", whose light is to be shown in a way of its own.");
     }
   }
-
-  // The sky that was asked for.
-  if (this->options_.sky) {
-    Light sky;
-    sky.type = LightType::Sky;
-    sky.name = "sky";
-    sky.intensity = *this->options_.sky;
-    this->scene_.lights.push_back(sky);
-  }
   this->AddStage("load", timer.Seconds());
+}
+
+void RadiosityRun::AddLights(const std::vector<Light>& lights) {
+  this->scene_.lights.insert(this->scene_.lights.end(), lights.begin(), lights.end());
 }
 
 void RadiosityRun::RequireLight() const {
   if (!this->scene_.HasLight()) {
     throw lambert::Error(
-        "The scene has no light: no face emits and no lamp is given; add one with --sky R G B or "
-        "--set MATERIAL:emission=R,G,B.");
+        "The scene has no light: no face emits and no lamp is given; add one with --sky R G B, "
+        "--sun or --set MATERIAL:emission=R,G,B.");
   }
 }
 

@@ -31,7 +31,6 @@ struct RadiosityRunOptions {
   FaceClusteringOptions clustering;
   SolveMethodOptions method;
   HierarchicalRadiosityOptions solver;  ///< of the method Hierarchical
-  std::optional<Spectrum> sky;          ///< radiance of a constant sky, W/(m2 sr)
   std::optional<AtlasOptions> atlas;    ///< of a light map, where one is wanted
   /// Triangles that refinement may add to the surfaces that their points light; none: all surfaces
   /// are in the light map but those of `representations`.
@@ -47,8 +46,10 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   explicit RadiosityRun(const RadiosityRunOptions& options);
   ~RadiosityRun();
 
-  /// Reads the files, changes materials, cleans up, adds the sky. Throws Error, Cancelled.
+  /// Reads the files, changes materials, cleans up. Throws Error, Cancelled.
   void Load(const ProgressCallback& progress = {});
+  /// Adds lights to those of the files.
+  void AddLights(const std::vector<Light>& lights);
   /// Throws Error, before any work, for a scene without light.
   void RequireLight() const;
   /// Builds the face-cluster tree, for the method Hierarchical and for light maps alone. Throws

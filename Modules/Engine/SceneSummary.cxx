@@ -58,7 +58,7 @@ SceneSummary SummarizeScene(const Scene& scene) {
     summary.spotLights += light.type == LightType::Spot;
     summary.directionalLights += light.type == LightType::Directional;
     summary.skies += light.type == LightType::Sky;
-    if (light.type == LightType::Point || light.type == LightType::Spot) {
+    if (light.IsPlaced()) {
       summary.emittedByLights += LampPower(light);
     }
   }

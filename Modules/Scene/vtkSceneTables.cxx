@@ -185,10 +185,15 @@ void ReadLights(vtkFieldData* fields, std::vector<Light>* lights) {
   table.Numbers(Names::LightIntensity(), 3, [&](size_t row, int c, double value) {
     l[row].intensity[c] = static_cast<float>(value);
   });
+  table.Numbers(Names::LightSize(), 1,
+                [&](size_t row, int, double value) { l[row].size = static_cast<float>(value); });
   table.Numbers(Names::LightConeAngles(), 2, [&](size_t row, int c, double value) {
     (c == 0 ? l[row].innerConeAngle : l[row].outerConeAngle) = static_cast<float>(value);
   });
   RequireSolvableLights(l);
+  for (Light& light : l) {
+    light.direction = Normalize(light.direction);
+  }
 }
 
 void WriteLights(const std::vector<Light>& l, vtkFieldData* fields) {
@@ -202,6 +207,7 @@ void WriteLights(const std::vector<Light>& l, vtkFieldData* fields) {
                                [&](size_t row, int c) { return l[row].direction[c]; });
   table.Numbers<vtkFloatArray>(Names::LightIntensity(), 3,
                                [&](size_t row, int c) { return l[row].intensity[c]; });
+  table.Numbers<vtkFloatArray>(Names::LightSize(), 1, [&](size_t row, int) { return l[row].size; });
   table.Numbers<vtkFloatArray>(Names::LightConeAngles(), 2, [&](size_t row, int c) {
     return c == 0 ? l[row].innerConeAngle : l[row].outerConeAngle;
   });

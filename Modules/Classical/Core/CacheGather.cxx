@@ -76,7 +76,7 @@ void CacheGatherer::StartRays(int32_t point) {
 
 Spectrum CacheGatherer::Read(int32_t ray) const {
   const RayHit& hit = batch_.Hit(ray);
-  if (hit.face < 0) return sources_.Sky() * float(kPi);
+  if (hit.face < 0) return sources_.Sky(batch_.Direction(ray)) * float(kPi);
   return cache_.Reflected(hit.face, SideOf(hit, batch_.Direction(ray)), hit.barycentric);
 }
 

@@ -54,7 +54,7 @@ bool FindsLight(const FilledCache& filled, int64_t face, Side side, uint64_t see
     const Vec3f direction = Normalize(s * local.x + t * local.y + normal * local.z);
     const RayHit hit = filled.rays.Closest(middle, direction);
     if (hit.face < 0) {
-      if (!filled.sources.Sky().IsBlack()) return true;
+      if (!filled.sources.Sky(direction).IsBlack()) return true;
       continue;
     }
     const Side met = Dot(mesh.VectorArea(hit.face), direction) < 0 ? kFront : kBack;

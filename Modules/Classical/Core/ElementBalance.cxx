@@ -117,7 +117,7 @@ void MeasureElementBalance(const Scene& scene, const ElementSides& sides, const 
   }
   AddEscaping(sides, light, rayScene, &escaped);
   for (const Light& lamp : scene.lights) {
-    if (lamp.type != LightType::Point && lamp.type != LightType::Spot) continue;
+    if (!lamp.IsPlaced()) continue;
     AddLamp(lamp, rayScene, &emitted, &escaped);
   }
   statistics->emitted = emitted.Total();

@@ -161,12 +161,14 @@ void ElementCache::CastPaths(const std::vector<int32_t>& sides, int firstPlace, 
       for (int32_t ray = 0; ray < batch.Size(); ++ray) {
         const size_t index = size_t(begin) * raysPerSide + size_t(ray);
         const size_t place = index / kRaysPerPlace;
-        if (!set->direct[place].IsBlack()) set->seesSource[place] = 1;
         const RayHit& hit = batch.Hit(ray);
         if (hit.face < 0) {
-          if (!sources_.Sky().IsBlack()) set->seesSource[place] = 1;
-          continue;
+          const Spectrum sky = sources_.Sky(batch.Direction(ray)) * (float(kPi) / kRaysPerPlace);
+          set->direct[place] += sky;
+          set->fromLights[index / raysPerSide] += sky;
         }
+        if (!set->direct[place].IsBlack()) set->seesSource[place] = 1;
+        if (hit.face < 0) continue;
         const Side side = Dot(mesh.VectorArea(hit.face), batch.Direction(ray)) < 0 ? kFront : kBack;
         set->ends[index] = int32_t(SideIndex(cells_.At(hit.face, hit.barycentric), side));
         if (mesh.Emits(hit.face, side) && !mesh.emittance[size_t(hit.face)].IsBlack()) {
@@ -244,26 +246,21 @@ std::vector<int32_t> ElementCache::DarkSidesInSight() const {
   return found;
 }
 
-/// Sums up what places have from the sources and the sky. Buried places are left out of the mean,
+/// Sums up what places have from the sources. Buried places are left out of the mean,
 /// but not where nearly all are: that is the inside of something closed, and the others leak.
 void ElementCache::PrepareRows() {
   const size_t rows = sideOfRow_.size();
   received_.assign(rows, {});
   perRay_.assign(rows, 0);
-  const Spectrum sky = sources_.Sky() * float(kPi);
   ParallelForEach(int64_t(rows), 1024, [&](int64_t i) {
     const size_t row = size_t(i);
     int open = 0;
     Spectrum sum;
     for (int place = 0; place < places_; ++place) {
       const size_t index = row * size_t(places_) + size_t(place);
-      const int32_t* const ends = &paths_.ends[index * kRaysPerPlace];
       if (IsBuried(row, place)) continue;
       ++open;
       sum += paths_.direct[index];
-      for (int r = 0; r < kRaysPerPlace; ++r) {
-        if (ends[r] == kEscaped) sum += sky * (1.f / kRaysPerPlace);
-      }
     }
     if (float(open) < kLeastOpen * float(places_)) open = places_;
     received_[row] = sum / float(open);
@@ -339,7 +336,6 @@ void ElementCache::Account(SolverStatistics* statistics) const {
     const int sides = int(mesh.Emits(face, kFront)) + int(mesh.Emits(face, kBack));
     if (sides > 0) emitted.Add(mesh.emittance[size_t(face)], double(mesh.Area(face)) * sides);
   }
-  const Spectrum sky = sources_.Sky() * float(kPi);
   const size_t raysPerRow = size_t(places_) * kRaysPerPlace;
   for (size_t row = 0; row < sideOfRow_.size(); ++row) {
     const int32_t side = sideOfRow_[row];
@@ -352,7 +348,6 @@ void ElementCache::Account(SolverStatistics* statistics) const {
     absorbed.Add(irradiance - reflectance * irradiance, area);
     escaped.Add(reflectance * irradiance + Emittance(side), area * away);
     emitted.Add(paths_.fromLights[row] * perRay_[row], area * kRaysPerPlace);
-    emitted.Add(sky, area * away);
   }
   statistics->emitted = emitted.ToSpectrum();
   statistics->absorbed = absorbed.ToSpectrum();

@@ -1,51 +1,48 @@
 #include "Classical/Core/LampsAndSky.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace lambert {
 
 namespace {
 
-Scene LightsOf(const Scene& scene, bool isFar) {
-  Scene part;
-  for (const Light& light : scene.lights) {
-    const bool far = light.type == LightType::Sky || light.type == LightType::Directional;
-    if (far == isFar && !light.intensity.IsBlack()) part.lights.push_back(light);
-  }
-  return part;
+std::vector<Light> LightsOf(const Scene& scene, bool isPlaced) {
+  std::vector<Light> lights;
+  std::copy_if(scene.lights.begin(), scene.lights.end(), std::back_inserter(lights),
+               [isPlaced](const Light& light) { return light.IsPlaced() == isPlaced; });
+  return lights;
 }
 
 }  // namespace
 
 LampsAndSky::LampsAndSky(const Scene& scene, const RayScene& rays)
-    : rays_(rays),
-      near_(LightsOf(scene, false)),
-      far_(LightsOf(scene, true)),
-      lamps_(near_, rays),
-      suns_(far_, rays) {}
+    : rays_(rays), near_(LightsOf(scene, true)), far_(LightsOf(scene, false)) {}
 
 Spectrum LampsAndSky::FromLamps(const LightReceiver& at, int64_t* cast) const {
-  return lamps_.FromLights(at, cast);
+  return FromSamples(near_, at, rays_, cast);
 }
 
 Spectrum LampsAndSky::FromFar(const LightReceiver& at, int skyRays, uint64_t seed,
                               int64_t* cast) const {
-  const Spectrum sum = suns_.FromLights(at, cast);
-  if (suns_.Sky().IsBlack()) return sum;
+  const Spectrum sum = FromSamples(far_, at, rays_, cast);
+  if (!far_.FillSky()) return sum;
 
-  // The open part of the cosine-weighted hemisphere.
+  // What the open part of the cosine-weighted hemisphere shows.
   Random random(seed);
   const float shift0 = random.Uniform(), shift1 = random.Uniform();
   Vec3f u, v;
   CoordinateSystem(at.normal, &u, &v);
-  int open = 0;
+  Spectrum seen;
   for (int i = 0; i < skyRays; ++i) {
     const Vec3f d =
         CosineHemisphere((float(i) + shift0) / float(skyRays), RadicalInverse(uint32_t(i), shift1));
     const Vec3f direction = Normalize(u * d.x + v * d.y + at.normal * d.z);
     if (Dot(direction, at.geometric) <= 0) continue;
     ++*cast;
-    open += rays_.OccludedDirection(at.position, direction) ? 0 : 1;
+    if (!rays_.OccludedDirection(at.position, direction)) seen += far_.Radiance(direction);
   }
-  return sum + suns_.Sky() * (float(kPi) * float(open) / float(skyRays));
+  return sum + seen * (float(kPi) / float(skyRays));
 }
 
 }  // namespace lambert

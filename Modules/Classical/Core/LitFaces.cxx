@@ -47,7 +47,7 @@ class LightSeeker {
       const Vec3f direction = CosineDirection(at.normal, random);
       const RayHit hit = rayScene_.Closest(at.position, direction);
       ++*rays;
-      if (hit.face < 0) return !sources_.Sky().IsBlack();
+      if (hit.face < 0) return !sources_.Sky(direction).IsBlack();
       const Vec3f front = scene_.mesh.FrontNormal(hit.face);
       const Side side = Dot(front, direction) < 0 ? kFront : kBack;
       if (scene_.mesh.Emits(hit.face, side) && !scene_.mesh.emittance[size_t(hit.face)].IsBlack()) {

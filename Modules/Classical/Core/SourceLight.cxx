@@ -15,6 +15,8 @@ constexpr size_t kMostPieces = 512;
 /// Shorter edges, relative to their distance from the origin, are not halved: their middles would
 /// be rounded onto corners, and the halves be nothing and the whole, for ever.
 constexpr float kShortestEdge = 1e-5f;
+/// Rays to a light whose samples differ, at most.
+constexpr int kRaysPerLight = 16;
 /// Additive recurrence after the generalized golden ratio of 2 dimensions (Roberts 2018).
 constexpr double kPlane[2] = {0.7548776662466927, 0.5698402909980532};
 
@@ -31,8 +33,18 @@ int ClipAtHorizon(const Vec3f* triangle, const LightReceiver& at, Vec3f* corners
 
 }  // namespace
 
+Spectrum FromSamples(const LightSources& lights, const LightReceiver& at, const RayScene& rays,
+                     int64_t* cast) {
+  const LitPlace place{at.position, at.normal, at.geometric};
+  return lights.Irradiance(place, kRaysPerLight, SeedOfPlace(at.position),
+                           [&](const LightSample& sample) {
+                             ++*cast;
+                             return !rays.Occluded(at.position, sample.direction, sample.distance);
+                           });
+}
+
 SourceLight::SourceLight(const Scene& scene, const RayScene& rays)
-    : scene_(scene), rays_(rays), tree_(scene.mesh) {
+    : scene_(scene), rays_(rays), tree_(scene.mesh), lights_(scene.lights) {
   // Emitting sides, as long as they are few.
   const TriangleMesh& mesh = scene.mesh;
   for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
@@ -47,27 +59,12 @@ SourceLight::SourceLight(const Scene& scene, const RayScene& rays)
     }
   }
   if (emitters_.size() > kFewEmitters) emitters_.clear();
-
-  // Lights without geometry.
-  for (const Light& light : scene.lights) {
-    if (light.type == LightType::Sky) {
-      sky_ += light.intensity;
-    } else if (!light.intensity.IsBlack()) {
-      lights_.push_back(light);
-    }
-  }
 }
 
 Spectrum SourceLight::FromEmitters(const LightReceiver& at, int count, Random* random,
                                    int64_t* cast) const {
   if (!emitters_.empty()) return FromFewEmitters(at, count, random, cast);
   return tree_.IsEmpty() ? Spectrum() : FromManyEmitters(at, count, random, cast);
-}
-
-Spectrum SourceLight::FromLights(const LightReceiver& at, int64_t* cast) const {
-  Spectrum sum;
-  for (const Light& light : lights_) sum += FromLight(at, light, cast);
-  return sum;
 }
 
 bool SourceLight::Unblocked(const LightReceiver& at, const Vec3f& place, int64_t* cast) const {
@@ -168,23 +165,6 @@ Spectrum SourceLight::FromManyEmitters(const LightReceiver& at, int count, Rando
            (cosine / (float(kPi) * sample.density * float(count)));
   }
   return sum;
-}
-
-Spectrum SourceLight::FromLight(const LightReceiver& at, const Light& light, int64_t* cast) const {
-  if (light.type == LightType::Directional) {
-    const Vec3f toward = Normalize(-light.direction);
-    const float cosine = Dot(at.normal, toward);
-    if (cosine <= 0 || Dot(at.geometric, toward) <= 0) return {};
-    ++*cast;
-    return rays_.OccludedDirection(at.position, toward) ? Spectrum() : light.intensity * cosine;
-  }
-  const Vec3f offset = light.position - at.position;
-  const float distance = Length(offset);
-  if (!(distance > 0)) return {};
-  const float cosine = Dot(at.normal, offset) / distance;
-  const float factor = cosine * light.ConeFactor(-offset / distance) / (distance * distance);
-  if (!(factor > 0) || !Unblocked(at, light.position, cast)) return {};
-  return light.intensity * factor;
 }
 
 }  // namespace lambert

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "Common/Core/Random.h"
+#include "Scene/Core/LightSource.h"
 #include "Scene/Core/Scene.h"
 #include "Visibility/Core/EmitterTree.h"
 #include "Visibility/Core/RayScene.h"
@@ -19,6 +20,11 @@ struct LightReceiver {
   Vec3f geometric;  ///< unit, of the side of the face that it lies on
 };
 
+/// Irradiance (W/m2) from the samples of lights without geometry, by the place alone. Adds the rays
+/// cast to `cast`.
+Spectrum FromSamples(const LightSources& lights, const LightReceiver& at, const RayScene& rays,
+                     int64_t* cast);
+
 class SourceLight {
  public:
   /// Keeps references to both; `rays` holds the scene's mesh.
@@ -27,10 +33,15 @@ class SourceLight {
   /// Irradiance (W/m2) from emitting faces by `count` rays, in proportion to what these send where
   /// nothing is in the way. Adds the rays cast to `cast`.
   Spectrum FromEmitters(const LightReceiver& at, int count, Random* random, int64_t* cast) const;
-  /// Irradiance (W/m2) from point, spot and directional lights, by a ray each.
-  Spectrum FromLights(const LightReceiver& at, int64_t* cast) const;
+  /// Irradiance (W/m2) from the samples of lights without geometry, by the place alone.
+  Spectrum FromLights(const LightReceiver& at, int64_t* cast) const {
+    return FromSamples(lights_, at, rays_, cast);
+  }
 
-  const Spectrum& Sky() const { return sky_; }  ///< radiance of all skies, W/(m2 sr)
+  /// True where rays that meet nothing find light.
+  bool HaveSky() const { return lights_.FillSky(); }
+  /// What they find in a unit direction, W/(m2 sr).
+  Spectrum Sky(const Vec3f& direction) const { return lights_.Radiance(direction); }
 
  private:
   /// What of an emitting side of a face lies above the horizon, or a piece of it.
@@ -49,7 +60,6 @@ class SourceLight {
   Spectrum FromFewEmitters(const LightReceiver& at, int count, Random* random, int64_t* cast) const;
   Spectrum FromManyEmitters(const LightReceiver& at, int count, Random* random,
                             int64_t* cast) const;
-  Spectrum FromLight(const LightReceiver& at, const Light& light, int64_t* cast) const;
   bool Unblocked(const LightReceiver& at, const Vec3f& place, int64_t* cast) const;
   void Evaluate(const LightReceiver& at, Piece* piece) const;
 
@@ -57,8 +67,7 @@ class SourceLight {
   const RayScene& rays_;
   EmitterTree tree_;
   std::vector<Emitter> emitters_;  ///< where they are few; else empty
-  std::vector<Light> lights_;      ///< without the skies
-  Spectrum sky_;
+  LightSources lights_;
 };
 
 }  // namespace lambert

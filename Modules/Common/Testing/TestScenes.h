@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -167,6 +168,27 @@ inline void AddSphere(TriangleMesh* mesh, const Vec3f& center, float radius, int
       if (j < stacks - 1) add(b, c, d);
     }
   }
+}
+
+/// A sun of `size` radians across in the zenith, 1 W/m2, over a black screen at z = 1 that covers
+/// x < 0 for 1 m.
+inline Scene ScreenUnderSun(float size) {
+  Scene scene;
+  AddQuad(&scene.mesh, {-1, -1, 1}, {1, 0, 0}, {0, 2, 0}, Spectrum(0.f));
+  CompleteTables(&scene);
+  Light sun;
+  sun.type = LightType::Directional;
+  sun.intensity = Spectrum(1.f);
+  sun.size = size;
+  scene.lights = {sun};
+  return scene;
+}
+
+/// What comes through beside the edge of that screen at `x` and z = 0, W/m2: the part of the disc
+/// beyond a straight line, but for the square of its size.
+inline double Penumbra(double x, double size) {
+  const double t = std::min(1.0, std::max(-1.0, x / std::tan(size / 2)));
+  return 0.5 + (t * std::sqrt(1 - t * t) + std::asin(t)) / kPi;
 }
 
 }  // namespace lambert::testing

@@ -55,10 +55,7 @@ bool IsAbove(const GatherPoint& at, const Vec3f& direction) {
 }  // namespace
 
 DirectLight::DirectLight(const Scene& scene, const RayScene& rayScene)
-    : rayScene_(rayScene), diagonal_(rayScene.Diagonal()) {
-  for (const Light& light : scene.lights) {
-    if (light.type != LightType::Sky && !light.intensity.IsBlack()) lights_.push_back(light);
-  }
+    : rayScene_(rayScene), lights_(scene.lights) {
   const TriangleMesh& mesh = scene.mesh;
   for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
     for (const Side side : {kFront, kBack}) {
@@ -337,34 +334,19 @@ DirectSample DirectLight::FromEmitters(const GatherPoint& at, int rays, uint64_t
   return sample;
 }
 
-Spectrum DirectLight::FromLight(const GatherPoint& at, const Light& light, int64_t* rays) const {
-  Vec3f target = light.position, direction = -light.direction;
-  float attenuation = 1;
-  if (light.type == LightType::Directional) {
-    target = at.position + direction * (2 * diagonal_);
-  } else {
-    const Vec3f offset = light.position - at.position;
-    const float squared = LengthSquared(offset);
-    if (!(squared > 0)) return {};
-    direction = offset / std::sqrt(squared);
-    attenuation = light.ConeFactor(-direction) / squared;
-  }
-  if (!IsAbove(at, direction) || !(attenuation > 0)) return {};
-  ++*rays;
-  if (rayScene_.Occluded(at.position, target)) return {};
-  return light.intensity * (Dot(at.normal, direction) * attenuation);
-}
-
-Spectrum DirectLight::FromLights(const GatherPoint& at, int64_t* rays) const {
-  Spectrum sum;
-  for (const Light& light : lights_) sum += this->FromLight(at, light, rays);
-  return sum;
+Spectrum DirectLight::FromLights(const GatherPoint& at, int count, uint64_t seed,
+                                 int64_t* rays) const {
+  const LitPlace place{at.position, at.normal, at.geometricNormal};
+  return lights_.Irradiance(place, count, seed, [&](const LightSample& sample) {
+    ++*rays;
+    return !rayScene_.Occluded(at.position, sample.direction, sample.distance);
+  });
 }
 
 DirectSample DirectLight::Sample(const GatherPoint& at, int count, uint64_t seed,
                                  int64_t* rays) const {
   DirectSample sample = this->FromEmitters(at, count, seed, rays);
-  sample.irradiance += this->FromLights(at, rays);
+  sample.irradiance += this->FromLights(at, count, HashBits(seed, 2), rays);
   return sample;
 }
 

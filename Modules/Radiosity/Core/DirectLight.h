@@ -7,6 +7,7 @@
 
 #include "Common/Core/Random.h"
 #include "Common/Core/SphericalTriangle.h"
+#include "Scene/Core/LightSource.h"
 #include "Scene/Core/Scene.h"
 #include "Visibility/Core/RayScene.h"
 
@@ -31,17 +32,20 @@ struct DirectSample {
       false;  ///< much of it comes from groups of emitters, of which rays picked some
 };
 
-/// All emitting faces and the lights without geometry but the sky, over a tree of the faces: from a
+/// All emitting faces and the samples of lights without geometry; over a tree of the faces: from a
 /// point, groups of faces that look small are taken as one.
 class DirectLight {
  public:
   /// Both by reference.
   DirectLight(const Scene& scene, const RayScene& rayScene);
 
-  /// Irradiance at a point, W/m2, with `count` rays to all emitting faces together, [1, inf); where
-  /// nothing is in the way of a face its light is exact with any number. It depends on the point,
-  /// the count and the seed alone. More rays that are cast only where these find something bring
-  /// too little light to places that little of it reaches. Adds the rays cast to `rays`.
+  /// The lights without geometry.
+  const LightSources& Lights() const { return lights_; }
+  /// Irradiance at a point, W/m2, with `count` rays to all emitting faces together, [1, inf), and
+  /// at most as many to each light; where nothing is in the way of a face its light is exact with
+  /// any number. It depends on the point, the count and the seed alone. More rays that are cast
+  /// only where these find something bring too little light to places that little of it reaches.
+  /// Adds the rays cast to `rays`.
   DirectSample Sample(const GatherPoint& at, int count, uint64_t seed, int64_t* rays) const;
 
  private:
@@ -92,12 +96,10 @@ class DirectLight {
   Spectrum CastRays(const GatherPoint& at, const Source* sources, int count, float total, int rays,
                     uint64_t seed, int* clear) const;
   DirectSample FromEmitters(const GatherPoint& at, int rays, uint64_t seed, int64_t* cast) const;
-  Spectrum FromLights(const GatherPoint& at, int64_t* rays) const;
-  Spectrum FromLight(const GatherPoint& at, const Light& light, int64_t* rays) const;
+  Spectrum FromLights(const GatherPoint& at, int count, uint64_t seed, int64_t* rays) const;
 
   const RayScene& rayScene_;
-  float diagonal_;
-  std::vector<Light> lights_;
+  LightSources lights_;
   std::vector<Emitter> emitters_;
   std::vector<Node> nodes_;
 };

@@ -28,7 +28,7 @@ struct Element {
   int32_t parent = -1;
   int32_t child = -1;
   int32_t childCount = 0;
-  int32_t item = -1;  ///< volume node, cluster node, patch or light, by kind
+  int32_t item = -1;  ///< volume node, cluster node, patch or light source, by kind
   int32_t surface = -1;
   int32_t level = 0;
   ElementKind kind = ElementKind::Volume;
@@ -49,7 +49,7 @@ struct Element {
 
   // Material, area-weighted means.
   Spectrum reflectance;
-  Spectrum emittance;  ///< W/m2
+  Spectrum emittance;  ///< W/m2; of lights their strength, or one band of it
 
   bool IsLeaf() const { return child < 0; }
   bool IsPolygon() const { return polygonCount > 0; }

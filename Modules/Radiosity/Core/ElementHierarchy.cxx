@@ -111,7 +111,8 @@ ElementHierarchy::ElementHierarchy(const Scene& scene, const ClusterTree& tree,
       tree_(tree),
       litSides_(litSides),
       leafMesh_(scene.mesh, options),
-      faceRuns_(scene.mesh) {
+      faceRuns_(scene.mesh),
+      lightSources_(scene.lights) {
   // Running sums of area, to pick faces of a cluster by area.
   const TriangleMesh& mesh = scene.mesh;
   diagonal_ = mesh.Bounds().IsEmpty() ? 0 : mesh.Bounds().Diagonal();
@@ -132,13 +133,24 @@ ElementHierarchy::ElementHierarchy(const Scene& scene, const ClusterTree& tree,
   emitterRoot_ = BuildVolumes(black);
 
   // Lights without geometry stand beside the hierarchy.
-  for (size_t i = 0; i < scene.lights.size(); ++i) {
-    Element light;
-    light.kind = ElementKind::Light;
-    light.item = int32_t(i);
-    light.canSplit = false;
-    light.frame.center = scene.lights[i].position;
+  int32_t item = 0;
+  for (const auto& source : lightSources_) AddLight(*source, item++);
+}
+
+void ElementHierarchy::AddLight(const LightSource& source, int32_t item) {
+  Element light;
+  light.kind = ElementKind::Light;
+  light.item = item;
+  light.canSplit = false;
+  light.emittance = source.Strength();
+  if (source.IsOneColor()) {
     lights_.push_back(Append(light));
+    return;
+  }
+  for (int band = 0; band < 3; ++band) {
+    light.emittance = Spectrum();
+    light.emittance[band] = source.Strength()[band];
+    if (!light.emittance.IsBlack()) lights_.push_back(Append(light));
   }
 }
 

@@ -10,6 +10,7 @@
 #include "Common/Core/Random.h"
 #include "Radiosity/Core/Element.h"
 #include "Radiosity/Core/LeafMesh.h"
+#include "Scene/Core/LightSource.h"
 #include "Scene/Core/Scene.h"
 
 namespace lambert {
@@ -29,7 +30,11 @@ class ElementHierarchy {
   int32_t EmitterRoot() const {
     return emitterRoot_;
   }  ///< over emitters that do not reflect; -1 for none
-  const std::vector<int32_t>& Lights() const { return lights_; }  ///< one element a light
+  /// One element a light, or one a band where its colour depends on the direction.
+  const std::vector<int32_t>& Lights() const { return lights_; }
+  const LightSource& LightOf(const Element& element) const {
+    return **(lightSources_.begin() + element.item);
+  }
   /// Root elements of the modelled sides of the surfaces, in the order of their making.
   const std::vector<int32_t>& SurfaceSides() const { return surfaceSides_; }
   /// False for elements of emitters that do not reflect: they only give.
@@ -65,6 +70,7 @@ class ElementHierarchy {
 
  private:
   int32_t Append(const Element& element);
+  void AddLight(const LightSource& source, int32_t item);
   int32_t BuildVolumes(const std::vector<int32_t>& surfaces);
   void LinkVolume(int32_t element, const std::vector<VolumeNode>& volumes,
                   const std::vector<int32_t>& surfaces);
@@ -82,6 +88,7 @@ class ElementHierarchy {
   std::vector<double> areaBefore_;  ///< area of all faces before each face: picks faces by area
   std::vector<Element> elements_;
   std::vector<std::vector<int32_t>> levels_;
+  LightSources lightSources_;
   std::vector<int32_t> lights_, surfaceSides_;
   int32_t root_ = -1, emitterRoot_ = -1;
   float diagonal_ = 0;

@@ -173,18 +173,17 @@ void MeasureEnergyBalance(const ElementHierarchy& hierarchy, const LinkNetwork& 
   }
   FollowLeaving(hierarchy, light, rayScene, &escaped, &absorbed);
 
-  // Lights without geometry.
+  // Lights without geometry: placed ones with all that they give, far ones with what arrives.
+  for (const Light& lamp : hierarchy.GetScene().lights) {
+    if (lamp.IsPlaced()) AddPunctualLight(lamp, rayScene, &emitted, &escaped);
+  }
   for (const int32_t source : hierarchy.Lights()) {
-    const Light& item = hierarchy.GetScene().lights[size_t(hierarchy[source].item)];
-    if (item.type == LightType::Point || item.type == LightType::Spot) {
-      AddPunctualLight(item, rayScene, &emitted, &escaped);
-      continue;
-    }
+    if (!hierarchy.LightOf(hierarchy[source]).IsFar()) continue;
     for (int32_t index = 0; index < hierarchy.Size(); ++index) {
       for (const Link& link : network.incoming[size_t(index)]) {
         if (link.source != source) continue;
         const float arrives = std::max(0.f, Dot(hierarchy[index].vectorArea, link.transfer));
-        emitted.Add(item.intensity, arrives);
+        emitted.Add(hierarchy[source].emittance, arrives);
       }
     }
   }

@@ -61,10 +61,6 @@ FinalGather::FinalGather(const ElementHierarchy& hierarchy, const RayScene& rayS
       rayScene_(rayScene),
       light_(light),
       direct_(hierarchy.GetScene(), rayScene) {
-  for (const Light& source : hierarchy.GetScene().lights) {
-    if (source.type == LightType::Sky) sky_ += source.intensity * float(kPi);
-  }
-
   // Where each side of each face lies in the hierarchy.
   const size_t faces = hierarchy.GetScene().mesh.triangles.size();
   for (std::vector<int32_t>& element : elementOfFace_) element.assign(faces, -1);
@@ -200,10 +196,9 @@ void FinalGather::Receive(int32_t leaf, const Spectrum& irradiance) {
 
 Spectrum FinalGather::Furnace() const {
   const Scene& scene = hierarchy_.GetScene();
-  for (const Light& light : scene.lights) {
-    if (light.type != LightType::Sky) return Spectrum(std::numeric_limits<float>::infinity());
-  }
-  Spectrum emittance = sky_, reflectance;
+  const LightSources& lights = direct_.Lights();
+  if (lights.HaveSamples()) return Spectrum(std::numeric_limits<float>::infinity());
+  Spectrum emittance = lights.LargestRadiance() * float(kPi), reflectance;
   for (const Spectrum& e : scene.mesh.emittance) emittance = Larger(emittance, e);
   for (const Spectrum& r : scene.mesh.reflectance) reflectance = Larger(reflectance, r);
   Spectrum furnace;
@@ -214,7 +209,7 @@ Spectrum FinalGather::Furnace() const {
 Spectrum FinalGather::Brightest() const {
   const Spectrum furnace = this->Furnace();
   if (!furnace.IsFinite()) return furnace;
-  Spectrum brightest = sky_;
+  Spectrum brightest = direct_.Lights().LargestRadiance() * float(kPi);
   for (const Spectrum& e : hierarchy_.GetScene().mesh.emittance) brightest = Larger(brightest, e);
   for (int32_t leaf = 0; leaf < hierarchy_.Size(); ++leaf) {
     if (!hasGathered_[size_t(leaf)]) continue;
@@ -356,7 +351,7 @@ FinalGather::Radiosity FinalGather::Met(const Vec3f& from, const Vec3f& directio
                                         int bounces, int64_t* rays) const {
   ++*rays;
   const RayHit hit = rayScene_.Closest(from, direction);
-  if (hit.face < 0) return {sky_, {}, 0};
+  if (hit.face < 0) return {direct_.Lights().Radiance(direction) * float(kPi), {}, 0};
   const TriangleMesh& mesh = hierarchy_.GetScene().mesh;
   const Spectrum& reflectance = mesh.reflectance[size_t(hit.face)];
   if (reflectance.IsBlack()) return {{}, {}, hit.distance};

@@ -60,7 +60,8 @@ class FinalGather {
                                  int64_t* cast, const ProgressCallback& progress = {}) const;
   const DirectLight& Direct() const { return direct_; }
   /// The radiosity of a furnace of the brightest emitter and the lightest surface of the scene, a
-  /// band at a time, W/m2: no place is brighter. Infinite where the scene has lights but a sky.
+  /// band at a time, W/m2: no place is brighter. Infinite where the scene has lights that points
+  /// send rays to.
   Spectrum Furnace() const;
   /// The largest radiosity of all emitters, leaves and the sky, a band at a time, W/m2: what they
   /// together give to a point is never more. Infinite as that of the furnace.
@@ -112,7 +113,6 @@ class FinalGather {
   const RayScene& rayScene_;
   ElementLight* light_;
   const DirectLight direct_;
-  Spectrum sky_;  ///< radiosity of a facet that sees nothing but the sky, W/m2
   std::array<std::vector<int32_t>, 2>
       elementOfFace_;                        ///< by side: the element that holds the face,
                                              ///< a leaf or a triangle; -1 where none does

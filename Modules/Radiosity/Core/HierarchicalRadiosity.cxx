@@ -115,22 +115,7 @@ double SourcePower(const Scene& scene) {
     if (sides) power += mesh.emittance[size_t(face)] * (float(sides) * mesh.Area(face));
   }
   const float half = mesh.Bounds().IsEmpty() ? 0 : mesh.Bounds().SurfaceArea() / 2;
-  for (const Light& light : scene.lights) {
-    switch (light.type) {
-      case LightType::Point:
-        power += light.intensity * float(4 * kPi);
-        break;
-      case LightType::Spot:
-        power += light.intensity * float(2 * kPi * (1 - std::cos(light.outerConeAngle)));
-        break;
-      case LightType::Directional:
-        power += light.intensity * (half / 2);
-        break;
-      case LightType::Sky:
-        power += light.intensity * (float(kPi) * half);
-        break;
-    }
-  }
+  for (const auto& light : LightSources(scene.lights)) power += light->Power(half);
   return double(power.MaxBand());
 }
 

@@ -133,13 +133,12 @@ void LightReconstruction::AddLinks(int32_t holder, const Element& receiver, cons
     const bool isPartial = link.visibility < 255;
 
     // A sky is nothing but its visibility.
-    const bool isSky = source.kind == ElementKind::Light &&
-                       hierarchy_.GetScene().lights[size_t(source.item)].type == LightType::Sky;
-    if (isSky) {
+    if (source.kind == ElementKind::Light && hierarchy_.LightOf(source).FillsSky()) {
       float visible = 0;
       int64_t cast = 0;
       const Vec3f transfer = castRays && isPartial
-                                 ? SkyTransfer(rayScene_, x, horizon, &visible, &cast)
+                                 ? SkyTransfer(hierarchy_.LightOf(source), rayScene_, source, x,
+                                               horizon, &visible, &cast)
                                  : link.transfer;
       sum->Add(transfer, radiosity);
       if (receiver.TurnsToAllSides()) sum->isotropic += radiosity * Length(transfer);

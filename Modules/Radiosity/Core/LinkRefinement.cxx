@@ -236,10 +236,6 @@ void ElementLight::Grow(const ElementHierarchy& hierarchy) {
   rowScale.resize(size, 1);
   for (size_t i = old; i < size; ++i) {
     const Element& element = hierarchy[int32_t(i)];
-    if (element.kind == ElementKind::Light) {
-      radiosity[i] = hierarchy.GetScene().lights[size_t(element.item)].intensity;
-      continue;
-    }
     radiosity[i] = element.emittance;
     if (element.parent < 0 || size_t(element.parent) >= old) continue;
     const Element& parent = hierarchy[element.parent];

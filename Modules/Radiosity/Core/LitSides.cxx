@@ -4,6 +4,7 @@
 
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
+#include "Scene/Core/LightSource.h"
 #include "Visibility/Core/EmitterTree.h"
 
 namespace lambert {
@@ -22,17 +23,12 @@ struct SideView {
   int64_t rays = 0;
 };
 
-bool SeesLight(const Scene& scene, const RayScene& rayScene, const Vec3f& x, const Vec3f& n) {
-  for (const Light& light : scene.lights) {
-    if (light.type == LightType::Sky || light.intensity.IsBlack()) continue;
-    const bool isFar = light.type == LightType::Directional;
-    const Vec3f toward = isFar ? -light.direction : light.position - x;
-    if (Dot(toward, n) <= 0 || light.ConeFactor(-Normalize(toward)) <= 0) continue;
-    const bool blocked =
-        isFar ? rayScene.OccludedDirection(x, toward) : rayScene.Occluded(x, light.position);
-    if (!blocked) return true;
-  }
-  return false;
+bool SeesLight(const LightSources& lights, const RayScene& rayScene, const Vec3f& x,
+               const Vec3f& n) {
+  const auto isOpen = [&](const LightSample& sample) {
+    return !rayScene.Occluded(x, sample.direction, sample.distance);
+  };
+  return !lights.Irradiance({x, n, n}, 1, SeedOfPlace(x), isOpen).IsBlack();
 }
 
 /// The emitting side, 2 x surface + side, of an emitter that is seen from x; -1 where the one that
@@ -49,7 +45,8 @@ int32_t SeenEmitter(const TriangleMesh& mesh, const RayScene& rayScene, const Em
 }
 
 SideView LookAround(const Scene& scene, const ClusterNode& root, int32_t side,
-                    const RayScene& rayScene, const EmitterTree& emitters, bool hasSky) {
+                    const RayScene& rayScene, const EmitterTree& emitters,
+                    const LightSources& lights) {
   const TriangleMesh& mesh = scene.mesh;
   SideView view;
   int32_t emitter = -1;
@@ -74,14 +71,14 @@ SideView LookAround(const Scene& scene, const ClusterNode& root, int32_t side,
     const Vec3f d = CosineHemisphere(random.Uniform(), random.Uniform());
     const Vec3f direction = u * d.x + v * d.y + n * d.z;
     ++view.rays;
-    view.seesLight = view.seesLight || SeesLight(scene, rayScene, x, n);
+    view.seesLight = view.seesLight || SeesLight(lights, rayScene, x, n);
     if (!view.seesLight && emitter < 0 && !emitters.IsEmpty()) {
       ++view.rays;
       emitter = SeenEmitter(mesh, rayScene, emitters, x, n, &random);
     }
     const RayHit hit = rayScene.Closest(x, direction);
     if (hit.face < 0) {
-      view.seesLight = view.seesLight || hasSky;
+      view.seesLight = view.seesLight || !lights.Radiance(direction).IsBlack();
       continue;
     }
     const bool fromFront = Dot(direction, mesh.VectorArea(hit.face)) < 0;
@@ -106,14 +103,12 @@ std::vector<uint8_t> FindLitSides(const Scene& scene, const ClusterTree& tree,
                                   const RayScene& rayScene, int64_t* rays) {
   // Every side looks around.
   const int64_t surfaces = int64_t(tree.surfaceRoots.size());
-  const bool hasSky = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) {
-    return l.type == LightType::Sky && !l.intensity.IsBlack();
-  });
+  const LightSources lights(scene.lights);
   const EmitterTree emitters(scene.mesh);
   std::vector<SideView> views(static_cast<size_t>(2 * surfaces));
   ParallelForEach(2 * surfaces, 4, [&](int64_t i) {
     const ClusterNode& root = tree.nodes[size_t(tree.surfaceRoots[size_t(i / 2)])];
-    views[size_t(i)] = LookAround(scene, root, int32_t(i % 2), rayScene, emitters, hasSky);
+    views[size_t(i)] = LookAround(scene, root, int32_t(i % 2), rayScene, emitters, lights);
   });
 
   // Seeing is mutual.

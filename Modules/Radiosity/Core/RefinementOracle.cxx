@@ -13,8 +13,6 @@ namespace {
 constexpr float kDoubtClear = 0.02f, kDoubtClearNear = 0.1f;
 constexpr float kDoubtBlocked = 0.1f, kDoubtBlockedNear = 0.5f;
 constexpr float kDoubtPartial = 0.35f;
-/// A sky is nearly always seen in part, by many rays, and what is seen of it changes smoothly.
-constexpr float kDoubtSky = 0.05f;
 /// Links with such an end are no more than guesses of the order of the transfer itself.
 constexpr float kVolumeSpread = 1.f;
 /// Elements flatter than this cone (radians) are treated as planes when sides are told apart.
@@ -60,26 +58,17 @@ Cosines CosinesToward(const Element& element, const Vec3f& direction, float angu
 PairBound BoundLight(const ElementHierarchy& hierarchy, const Element& source,
                      const Element& receiver) {
   PairBound bound;
-  const Light& light = hierarchy.GetScene().lights[size_t(source.item)];
-  const bool isFar = light.type == LightType::Directional || light.type == LightType::Sky;
-  const float distance =
-      isFar ? hierarchy.SceneDiagonal() : Length(light.position - receiver.frame.center);
-  if (light.type != LightType::Sky && receiver.coneAngle < kPlanarCone) {
-    const Vec3f toward = isFar ? -light.direction : light.position - receiver.frame.center;
-    bound.apart = Dot(receiver.axis, toward) <= 0;
+  const LightSource& light = hierarchy.LightOf(source);
+  const LightSample middle = light.Sample(receiver.frame.center, {});
+  const float distance = light.IsFar() ? hierarchy.SceneDiagonal() : middle.distance;
+  if (!light.FillsSky() && receiver.coneAngle < kPlanarCone) {
+    bound.apart = Dot(receiver.axis, middle.direction) <= 0;
   }
   const float nearest = std::max(distance - receiver.radius, 0.1f * receiver.radius);
-  const float ratio = receiver.radius / std::max(nearest, 1e-20f);
-  bound.isSky = light.type == LightType::Sky;
-  bound.formFactor = light.type == LightType::Sky ? float(kPi)
-                     : light.type == LightType::Directional
-                         ? 1.f
-                         : 1 / std::max(nearest * nearest, 1e-20f);
-  bound.receiverSpread = receiver.IsVolume() || receiver.coneAngle > float(kPi) / 2
+  bound.formFactor = light.LargestTransfer(nearest);
+  bound.receiverSpread = receiver.TurnsToAllSides()
                              ? 1.f
-                             : (isFar ? 0.f : Clamp01(ratio * ratio));
-  if (light.type == LightType::Spot)
-    bound.receiverSpread = Clamp01(std::max(bound.receiverSpread, ratio));
+                             : light.Variation(receiver.radius / std::max(nearest, 1e-20f));
   return bound;
 }
 

@@ -9,8 +9,7 @@ namespace lambert {
 
 /// Geometry of a pair of elements, for unit radiosity of the source.
 struct PairBound {
-  bool apart = false;  ///< neither can light the other: no link at all
-  bool isSky = false;
+  bool apart = false;    ///< neither can light the other: no link at all
   float formFactor = 0;  ///< irradiance on the receiver with nothing in the way, a mid estimate in
                          ///< [0, 1]; lights: W/m2
   float receiverSpread =

@@ -49,16 +49,17 @@ Vec3f ClusterTransfer(const Element& source, const Vec3f& x, const Vec3f& horizo
   return length > 1 ? sum / length : sum;
 }
 
-Vec3f LightTransfer(const Light& light, const Vec3f& x, const Vec3f& horizon) {
-  if (light.type == LightType::Sky) return horizon * float(kPi);
-  if (light.type == LightType::Directional) {
-    return HasHorizon(horizon) && Dot(light.direction, horizon) >= 0 ? Vec3f() : -light.direction;
-  }
-  const Vec3f offset = light.position - x;
-  const float squared = LengthSquared(offset);
-  if (!(squared > 0) || (HasHorizon(horizon) && Dot(offset, horizon) <= 0)) return {};
-  const Vec3f direction = offset / std::sqrt(squared);
-  return direction * (light.ConeFactor(-direction) / squared);
+/// Light per unit of the strength that a light's element has.
+float PerUnit(const Spectrum& light, const Spectrum& strength) {
+  const int band = strength.r >= strength.MaxBand() ? 0 : strength.g >= strength.MaxBand() ? 1 : 2;
+  return strength[band] > 0 ? light[band] / strength[band] : 0;
+}
+
+Vec3f LightTransfer(const LightSource& light, const Element& source, const Vec3f& x,
+                    const Vec3f& horizon) {
+  const LightSample middle = light.Sample(x, {});
+  if (HasHorizon(horizon) && Dot(middle.direction, horizon) <= 0) return {};
+  return middle.direction * PerUnit(middle.irradiance, source.emittance);
 }
 
 /// A source looks large from `x` where it is nearer than this many of its radii.
@@ -94,18 +95,11 @@ Vec3f SolidAngleTarget(const ElementHierarchy& hierarchy, const Element& source,
   return Vec3f(Vec3d(x) + direction * (height / slope));
 }
 
-/// Where a ray from `x` toward sample `k` of the source ends, and how much it counts; false where
+/// Where a ray from `x` toward sample `k` of a surface ends, and how much it counts; false where
 /// that sample cannot be seen from there.
 bool RayTarget(const ElementHierarchy& hierarchy, const Element& source, int k, const Vec3f& x,
                const Vec3f& horizon, Vec3f* target, float* weight) {
   *weight = 1;
-  if (source.kind == ElementKind::Light) {
-    const Light& light = hierarchy.GetScene().lights[size_t(source.item)];
-    *target = light.type == LightType::Directional
-                  ? x - light.direction * (2 * hierarchy.SceneDiagonal())
-                  : light.position;
-    return !HasHorizon(horizon) || Dot(*target - x, horizon) > 0;
-  }
   const bool isLarge =
       source.IsPolygon() && LengthSquared(source.frame.center - x) <
                                 kLargeWithin * kLargeWithin * source.radius * source.radius;
@@ -119,12 +113,32 @@ bool RayTarget(const ElementHierarchy& hierarchy, const Element& source, int k, 
   return height > 0;
 }
 
+/// Sample `k` of `count` of a light, spread evenly.
+LightSample SampleOf(const LightSource& light, int k, int count, const Vec3f& x) {
+  return light.Sample(x, {(float(k) + 0.5f) / float(count), RadicalInverse(uint32_t(k), 0.25f)});
+}
+
+/// Visible part of a light that is small.
+float VisibleFraction(const LightSource& light, const RayScene& rayScene, const Vec3f& x,
+                      const Vec3f& horizon, int64_t* rays) {
+  int cast = 0, clear = 0;
+  const int samples = std::min(kSamplesPerElement, light.Samples());
+  for (int k = 0; k < samples; ++k) {
+    const LightSample sample = SampleOf(light, k, samples, x);
+    if (HasHorizon(horizon) && !(Dot(sample.direction, horizon) > 0)) continue;
+    ++cast;
+    clear += rayScene.Occluded(x, sample.direction, sample.distance) ? 0 : 1;
+  }
+  *rays += cast;
+  return cast > 0 ? float(clear) / float(cast) : 1;
+}
+
 }  // namespace
 
 Vec3f UnoccludedTransfer(const ElementHierarchy& hierarchy, const Element& source, const Vec3f& x,
                          const Vec3f& horizon) {
   if (source.kind == ElementKind::Light) {
-    return LightTransfer(hierarchy.GetScene().lights[size_t(source.item)], x, horizon);
+    return LightTransfer(hierarchy.LightOf(source), source, x, horizon);
   }
   if (!source.IsPolygon()) return ClusterTransfer(source, x, horizon);
   Vec3f corners[kMaximumPolygonCorners];
@@ -135,9 +149,11 @@ Vec3f UnoccludedTransfer(const ElementHierarchy& hierarchy, const Element& sourc
 
 float VisibleFraction(const ElementHierarchy& hierarchy, const RayScene& rayScene,
                       const Element& source, const Vec3f& x, const Vec3f& horizon, int64_t* rays) {
+  if (source.kind == ElementKind::Light) {
+    return VisibleFraction(hierarchy.LightOf(source), rayScene, x, horizon, rays);
+  }
   float cast = 0, clear = 0;
-  const int samples = source.kind == ElementKind::Light ? 1 : kSamplesPerElement;
-  for (int k = 0; k < samples; ++k) {
+  for (int k = 0; k < kSamplesPerElement; ++k) {
     Vec3f target;
     float weight;
     if (!RayTarget(hierarchy, source, k, x, horizon, &target, &weight)) continue;
@@ -148,8 +164,9 @@ float VisibleFraction(const ElementHierarchy& hierarchy, const RayScene& rayScen
   return cast > 0 ? clear / cast : 1;
 }
 
-Vec3f SkyTransfer(const RayScene& rayScene, const Vec3f& x, const Vec3f& horizon, float* visible,
-                  int64_t* rays) {
+Vec3f SkyTransfer(const LightSource& sky, const RayScene& rayScene, const Element& source,
+                  const Vec3f& x, const Vec3f& horizon, float* visible, int64_t* rays) {
+  // What fills the sky.
   Vec3f u, v, sum;
   CoordinateSystem(horizon, &u, &v);
   float open = 0, all = 0;
@@ -158,11 +175,21 @@ Vec3f SkyTransfer(const RayScene& rayScene, const Vec3f& x, const Vec3f& horizon
     all += d.z;
     if (rayScene.OccludedDirection(x, direction)) continue;
     open += d.z;
-    sum += direction;
+    sum += direction * PerUnit(sky.Radiance(direction), source.emittance);
   }
   *rays += kSkyDirections;
   *visible = open / all;
-  return sum * float(2 * kPi / kSkyDirections);
+  sum *= float(2 * kPi / kSkyDirections);
+
+  // Its small bright parts.
+  for (int k = 0; k < sky.Samples(); ++k) {
+    const LightSample sample = SampleOf(sky, k, sky.Samples(), x);
+    if (Dot(sample.direction, horizon) <= 0) continue;
+    ++*rays;
+    if (rayScene.Occluded(x, sample.direction, sample.distance)) continue;
+    sum += sample.direction * (PerUnit(sample.irradiance, source.emittance) / float(sky.Samples()));
+  }
+  return sum;
 }
 
 namespace {
@@ -198,12 +225,14 @@ Vec3f KeepPower(const Element& receiver, const Vec3f& transfer, float received) 
   return direction * std::min(received / std::max(facing, kLeastFacing), 1.f);
 }
 
-TransferEstimate EstimateSkyTransfer(const RayScene& rayScene, const Element& receiver) {
+TransferEstimate EstimateSkyTransfer(const LightSource& sky, const RayScene& rayScene,
+                                     const Element& source, const Element& receiver) {
   TransferEstimate estimate;
   for (const SurfaceSample& sample : receiver.samples) {
     const Vec3f& horizon = receiver.IsPolygon() ? receiver.axis : sample.normal;
     float open = 0;
-    estimate.transfer += SkyTransfer(rayScene, sample.position, horizon, &open, &estimate.rays);
+    estimate.transfer +=
+        SkyTransfer(sky, rayScene, source, sample.position, horizon, &open, &estimate.rays);
     estimate.visibility += open / kSamplesPerElement;
   }
   estimate.transfer /= float(kSamplesPerElement);
@@ -215,8 +244,8 @@ TransferEstimate EstimateSkyTransfer(const RayScene& rayScene, const Element& re
 TransferEstimate EstimateTransfer(const ElementHierarchy& hierarchy, const RayScene& rayScene,
                                   const Element& source, const Element& receiver, bool thorough) {
   const bool isLight = source.kind == ElementKind::Light;
-  if (isLight && hierarchy.GetScene().lights[size_t(source.item)].type == LightType::Sky) {
-    return EstimateSkyTransfer(rayScene, receiver);
+  if (isLight && hierarchy.LightOf(source).FillsSky()) {
+    return EstimateSkyTransfer(hierarchy.LightOf(source), rayScene, source, receiver);
   }
   TransferEstimate estimate;
   float weight = 0, visibleWeight = 0, received = 0;

@@ -10,22 +10,24 @@
 
 namespace lambert {
 
-/// Irradiance vector at `x` per unit radiosity of `source` (per unit intensity, irradiance or
-/// radiance of a light), with nothing in the way. A horizon, a unit normal, clips what lies below
+/// Irradiance vector at `x` per unit radiosity of `source` (per unit strength
+/// of a light), with nothing in the way. A horizon, a unit normal, clips what lies below
 /// it; the zero vector clips nothing. Polygons by closed form, clusters by samples as small discs,
 /// so that no term exceeds the form factor of what it stands for.
 Vec3f UnoccludedTransfer(const ElementHierarchy& hierarchy, const Element& source, const Vec3f& x,
                          const Vec3f& horizon);
 
 /// Visible part of `source` from `x`, [0, 1]: one ray to each sample of the source that faces `x`
-/// above the horizon; 1 where none does. Adds the rays to `rays`. Not for a sky.
+/// above the horizon; 1 where none does. Adds the rays to `rays`. Not for what fills
+/// the sky.
 float VisibleFraction(const ElementHierarchy& hierarchy, const RayScene& rayScene,
                       const Element& source, const Vec3f& x, const Vec3f& horizon, int64_t* rays);
 
-/// Irradiance vector at `x` of a sky of unit radiance, by stratified rays over the hemisphere of
-/// `horizon`; `visible` is the cosine-weighted part of the hemisphere that is open.
-Vec3f SkyTransfer(const RayScene& rayScene, const Vec3f& x, const Vec3f& horizon, float* visible,
-                  int64_t* rays);
+/// Irradiance vector at `x` per unit strength of the element `source` of a light that fills the
+/// sky, by stratified rays over the hemisphere of `horizon`, and rays to its samples; `visible` is
+/// the cosine-weighted part of the hemisphere that is open.
+Vec3f SkyTransfer(const LightSource& sky, const RayScene& rayScene, const Element& source,
+                  const Vec3f& x, const Vec3f& horizon, float* visible, int64_t* rays);
 
 /// An estimate of the mean transfer over a receiver (4.23).
 struct TransferEstimate {

@@ -7,6 +7,7 @@
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
 #include "Reference/Core/ReferenceRays.h"
+#include "Scene/Core/LightSource.h"
 #include "Visibility/Core/EmitterTree.h"
 
 namespace lambert {
@@ -44,6 +45,8 @@ class PathPointSet {
   BounceNumbers AtReceiver(int path) const {
     return {0, {At(path, 0), At(path, 1), At(path, 2)}, {At(path, 3), At(path, 4)}};
   }
+  /// The sample of lights without geometry at the receiver.
+  Vec2f OfLights(int path) const { return {float(At(path, 11)), float(At(path, 12))}; }
   BounceNumbers AtFirstBounce(int path) const {
     return {At(path, 5), {At(path, 6), At(path, 7), At(path, 8)}, {At(path, 9), At(path, 10)}};
   }
@@ -52,14 +55,15 @@ class PathPointSet {
   double At(int path, size_t dimension) const {
     // The generalized golden ratios of 3 and 2 dimensions (Roberts 2018) at the receiver; fractions
     // of the square roots of primes (Richtmyer 1951) at the bounce.
-    static constexpr double kSteps[11] = {
+    static constexpr double kSteps[13] = {
         0.8191725133961645, 0.6710436067037893, 0.5497004779019703, 0.7548776662466927,
         0.5698402909980532, 0.3166247903553998, 0.4142135623730950, 0.7320508075688772,
-        0.2360679774997897, 0.6457513110645906, 0.6055512754639893};
+        0.2360679774997897, 0.6457513110645906, 0.6055512754639893, 0.7548776662466927,
+        0.5698402909980532};
     return Fraction(shifts_[dimension] + path * kSteps[dimension]);
   }
 
-  double shifts_[11];
+  double shifts_[13];
 };
 
 /// Power heuristic of multiple importance sampling (Veach 1997, equation 9.13 with exponent 2).
@@ -106,29 +110,20 @@ struct PathTracedIrradiance::Implementation {
   Spectrum Path(const Vertex& receiver, const PathPointSet& points, int path, uint64_t seed,
                 int maximumDepth, int64_t* rayCount) const;
   Spectrum FromEmitters(const Vertex& at, const double u[3], int64_t* rayCount) const;
-  Spectrum FromLight(const Vertex& at, const Light& light, int64_t* rayCount) const;
-  Spectrum Unshadowed(const Vertex& at, const Light& light, Vec3f* direction,
-                      float* distance) const;
-  Spectrum FromAllLights(const Vertex& at, int64_t* rayCount) const;
+  Spectrum FromLight(const Vertex& at, const LightSource& light, const Vec2f& u,
+                     int64_t* rayCount) const;
+  Spectrum FromSteadyLights(const Vertex& at, int64_t* rayCount) const;
+  Spectrum FromSpreadLights(const Vertex& at, const Vec2f& u, int64_t* rayCount) const;
   Spectrum FromOneLight(const Vertex& at, Random* random, int64_t* rayCount) const;
 
   const Scene& scene;
   ReferenceRays rays;
   EmitterTree emitters;
-  Spectrum sky;  ///< radiance of all sky lights, W/(m2 sr)
-  std::vector<Light> punctual;
+  LightSources lights;
 };
 
 PathTracedIrradiance::Implementation::Implementation(const Scene& scene_)
-    : scene(scene_), rays(scene_.mesh), emitters(scene_.mesh) {
-  for (const Light& light : scene.lights) {
-    if (light.type == LightType::Sky) {
-      sky += light.intensity;
-    } else if (!light.intensity.IsBlack()) {
-      punctual.push_back(light);
-    }
-  }
-}
+    : scene(scene_), rays(scene_.mesh), emitters(scene_.mesh), lights(scene_.lights) {}
 
 // Light straight from its sources.
 
@@ -151,60 +146,70 @@ Spectrum PathTracedIrradiance::Implementation::FromEmitters(const Vertex& at, co
   return radiance * (cosine * weight / sample.density);
 }
 
-Spectrum PathTracedIrradiance::Implementation::Unshadowed(const Vertex& at, const Light& light,
-                                                          Vec3f* direction, float* distance) const {
-  float attenuation = 1;
-  *distance = std::numeric_limits<float>::infinity();
-  *direction = Normalize(-light.direction);
-  if (light.type != LightType::Directional) {
-    const Vec3f offset = light.position - at.position;
-    *distance = Length(offset);
-    if (!(*distance > 0)) return {};
-    *direction = offset / *distance;
-    attenuation = light.ConeFactor(-*direction) / (*distance * *distance);
-  }
-  const float cosine = Dot(at.normal, *direction);
-  if (cosine <= 0 || Dot(at.geometric, *direction) <= 0) return {};
-  return light.intensity * (cosine * attenuation);
+namespace {
+
+/// What a sample gives where nothing is in the way.
+Spectrum Unshadowed(const Vertex& at, const LightSample& sample) {
+  const float cosine = Dot(at.normal, sample.direction);
+  if (cosine <= 0 || Dot(at.geometric, sample.direction) <= 0) return {};
+  return sample.irradiance * cosine;
 }
 
-Spectrum PathTracedIrradiance::Implementation::FromLight(const Vertex& at, const Light& light,
-                                                         int64_t* rayCount) const {
-  Vec3f direction;
-  float distance = 0;
-  const Spectrum irradiance = Unshadowed(at, light, &direction, &distance);
+}  // namespace
+
+Spectrum PathTracedIrradiance::Implementation::FromLight(const Vertex& at, const LightSource& light,
+                                                         const Vec2f& u, int64_t* rayCount) const {
+  const LightSample sample = light.Sample(at.position, u);
+  const Spectrum irradiance = Unshadowed(at, sample);
   if (irradiance.IsBlack()) return {};
   ++*rayCount;
-  return rays.Blocked(at, direction, distance) ? Spectrum() : irradiance;
+  return rays.Blocked(at, sample.direction, sample.distance) ? Spectrum() : irradiance;
 }
 
-Spectrum PathTracedIrradiance::Implementation::FromAllLights(const Vertex& at,
-                                                             int64_t* rayCount) const {
+/// Lights whose samples are all alike need one ray, whatever the number of paths.
+Spectrum PathTracedIrradiance::Implementation::FromSteadyLights(const Vertex& at,
+                                                                int64_t* rayCount) const {
   Spectrum sum;
-  for (const Light& light : punctual) sum += FromLight(at, light, rayCount);
+  for (const auto& light : lights) {
+    if (light->Samples() == 1) sum += FromLight(at, *light, {}, rayCount);
+  }
   return sum;
 }
 
-/// One light, chosen by what it would give if nothing stood between.
+/// A sample of each of the others.
+Spectrum PathTracedIrradiance::Implementation::FromSpreadLights(const Vertex& at, const Vec2f& u,
+                                                                int64_t* rayCount) const {
+  Spectrum sum;
+  for (const auto& light : lights) {
+    if (light->Samples() > 1) sum += FromLight(at, *light, u, rayCount);
+  }
+  return sum;
+}
+
+/// One light, chosen by what its sample would give if nothing stood between.
 Spectrum PathTracedIrradiance::Implementation::FromOneLight(const Vertex& at, Random* random,
                                                             int64_t* rayCount) const {
-  Vec3f direction;
-  float distance = 0;
+  if (!lights.HaveSamples()) return {};
+  Random sampling(SeedOfPlace(at.position));
+  const float u0 = sampling.Uniform(), u1 = sampling.Uniform();
+  const auto shareOf = [&](const auto& light) {
+    return double(Unshadowed(at, light->Sample(at.position, {u0, u1})).Mean());
+  };
   double total = 0;
-  for (const Light& light : punctual) total += Unshadowed(at, light, &direction, &distance).Mean();
+  for (const auto& light : lights) total += shareOf(light);
   if (!(total > 0)) return {};
   double rest = random->UniformDouble() * total;
-  for (const Light& light : punctual) {
-    const double share = Unshadowed(at, light, &direction, &distance).Mean();
+  for (const auto& light : lights) {
+    const double share = shareOf(light);
     rest -= share;
-    if (rest < 0) return FromLight(at, light, rayCount) * float(total / share);
+    if (rest < 0) return FromLight(at, *light, {u0, u1}, rayCount) * float(total / share);
   }
   return {};
 }
 
 // Paths.
 
-/// Light that reaches the receiver over one path, but for that of punctual lights straight to it.
+/// Light that reaches the receiver over one path, but for that of steady lights straight to it.
 Spectrum PathTracedIrradiance::Implementation::Path(const Vertex& receiver,
                                                     const PathPointSet& points, int path,
                                                     uint64_t seed, int maximumDepth,
@@ -212,7 +217,9 @@ Spectrum PathTracedIrradiance::Implementation::Path(const Vertex& receiver,
   const TriangleMesh& mesh = scene.mesh;
   Random random(HashBits(seed, uint64_t(path)));
   BounceNumbers numbers = points.AtReceiver(path);
-  Spectrum sum = FromEmitters(receiver, numbers.emitter, rayCount), throughput(1.f);
+  Spectrum sum = FromEmitters(receiver, numbers.emitter, rayCount) +
+                 FromSpreadLights(receiver, points.OfLights(path), rayCount);
+  Spectrum throughput(1.f);
   Vertex at = receiver;
   for (int depth = 0;; ++depth) {
     // A cosine-weighted ray about the normal, within the geometric hemisphere.
@@ -226,7 +233,9 @@ Spectrum PathTracedIrradiance::Implementation::Path(const Vertex& receiver,
     // choice of emitters.
     ReferenceHit hit;
     ++*rayCount;
-    if (!rays.Closest(at, direction, &hit)) return sum + throughput * sky * float(kPi);
+    if (!rays.Closest(at, direction, &hit)) {
+      return sum + throughput * lights.Radiance(direction) * float(kPi);
+    }
     if (mesh.Emits(hit.face, hit.side)) {
       const float density =
           emitters.Density(at.position, at.normal, hit.face, direction, hit.distance);
@@ -294,7 +303,7 @@ IrradianceEstimate PathTracedIrradiance::Implementation::EstimateAt(
     mean.Add(light);
   }
   IrradianceEstimate estimate = mean.Estimate();
-  estimate.irradiance += FromAllLights(receiver, &rayCount);
+  estimate.irradiance += FromSteadyLights(receiver, &rayCount);
   return estimate;
 }
 
@@ -332,9 +341,9 @@ std::array<double, 3> PathTracedIrradiance::SumOfPaths(const ReceiverPoint& poin
   const int maximumDepth = PathTracedIrradianceOptions().maximumDepth;
   std::array<double, 3> sum =
       implementation_->SumOfPaths(receiver, seed, paths, maximumDepth, rays);
-  const Spectrum lights = implementation_->FromAllLights(receiver, rays);
+  const Spectrum steady = implementation_->FromSteadyLights(receiver, rays);
   for (size_t band = 0; band < 3; ++band) {
-    sum[band] += double(lights[int(band)]) * (paths.end - paths.begin);
+    sum[band] += double(steady[int(band)]) * (paths.end - paths.begin);
   }
   return sum;
 }

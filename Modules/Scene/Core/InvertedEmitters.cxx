@@ -63,8 +63,7 @@ class EmittingPieces {
       if (IsInside(piece, points[i])) return false;
     }
     for (const Light& light : scene_.lights) {
-      const bool placed = light.type == LightType::Point || light.type == LightType::Spot;
-      if (placed && IsInside(piece, light.position)) return false;
+      if (light.IsPlaced() && IsInside(piece, light.position)) return false;
     }
     return !scene_.camera || !IsInside(piece, Vec3f(scene_.camera->position));
   }

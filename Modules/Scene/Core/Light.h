@@ -15,12 +15,20 @@ struct Light {
   std::string name;
   Vec3f position;             ///< world space, m (point, spot)
   Vec3f direction{0, 0, -1};  ///< unit, the way the light travels (spot, directional)
-  /// Point and spot: intensity W/sr. Directional: irradiance W/m2 on a facet that faces it. Sky: radiance W/(m2 sr).
+  /// Point and spot: intensity W/sr. Directional: irradiance W/m2 on a facet that faces it. Sky:
+  /// radiance W/(m2 sr).
   Spectrum intensity;
-  float innerConeAngle = 0;                 ///< spot: half-angle of full intensity, radians
-  float outerConeAngle = float(kPi) / 4;    ///< spot: half-angle where it ends, radians
+  /// Point and spot: radius of the ball that shines, m. Directional: angular diameter, radians,
+  /// [0, pi).
+  float size = 0;
+  float innerConeAngle = 0;               ///< spot: half-angle of full intensity, radians
+  float outerConeAngle = float(kPi) / 4;  ///< spot: half-angle where it ends, radians
 
-  /// Fall-off of a spot in the unit direction `d` away from it, in [0,1] (glTF KHR_lights_punctual); 1 for others.
+  bool IsBlack() const { return intensity.IsBlack(); }
+  /// True for what stands at a place (point, spot); the others are infinitely far.
+  bool IsPlaced() const { return type == LightType::Point || type == LightType::Spot; }
+  /// Fall-off of a spot in the unit direction `d` away from it, in [0,1] (glTF
+  /// KHR_lights_punctual); 1 for others.
   float ConeFactor(const Vec3f& d) const {
     if (type != LightType::Spot) return 1;
     const float outer = std::cos(outerConeAngle);

@@ -4,7 +4,7 @@ namespace lambert {
 
 bool Scene::HasLight() const {
   for (const Light& light : lights) {
-    if (!light.intensity.IsBlack()) return true;
+    if (!light.IsBlack()) return true;
   }
   for (size_t face = 0; face < mesh.triangles.size(); ++face) {
     if ((mesh.faceFlags[face] & (kEmitsFront | kEmitsBack)) && !mesh.emittance[face].IsBlack()) {

@@ -158,7 +158,7 @@ void WarnOfSize(const Scene& scene, CleaningReport* report) {
   const double diagonal = bounds.Diagonal();
   bool hasIntensity = false;
   for (const Light& light : scene.lights) {
-    hasIntensity |= light.type == LightType::Point || light.type == LightType::Spot;
+    hasIntensity |= light.IsPlaced();
   }
   if (hasIntensity && (diagonal > 1000 || diagonal < 0.01)) {
     report->warnings.push_back(

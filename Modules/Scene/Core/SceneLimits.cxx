@@ -33,6 +33,12 @@ void RequireSolvableLights(const std::vector<Light>& lights) {
       throw Error(
           name + " lies too far away or nowhere; repair the input or make it a directional light.");
     }
+    const bool isSizeKnown =
+        light.size >= 0 && (light.IsPlaced() ? light.size <= kFarthest : light.size < float(kPi));
+    if (!isSizeKnown) {
+      throw Error(name + " has a size that is negative, not a number or too large; a directional " +
+                  "light is less than 180 degrees across.");
+    }
     const bool isAimed = light.type == LightType::Spot || light.type == LightType::Directional;
     if (isAimed && !(IsFinite(light.direction) && LengthSquared(Vec3d(light.direction)) > 0)) {
       throw Error(name + " shines in no direction; repair the input.");

@@ -25,8 +25,8 @@ inline bool IsWithinReach(const Vec3f& point) {
 /// Throws Error where the diagonal of `mesh` is beyond the limits. A mesh without extent passes.
 void RequireSolvableSize(const TriangleMesh& mesh);
 
-/// Throws Error for a light whose intensity is negative or not finite, that lies out of reach or
-/// that shines in no direction.
+/// Throws Error for a light whose intensity is negative or not finite, that lies out of reach,
+/// that shines in no direction or whose size none can have.
 void RequireSolvableLights(const std::vector<Light>& lights);
 
 }  // namespace lambert

@@ -6,6 +6,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
+#include "Scene/Core/LightSource.h"
 #include "Scene/Core/SceneLimits.h"
 #include "Visibility/Core/SolutionLookup.h"
 
@@ -63,7 +64,7 @@ class ProbeReader {
   SolutionLookup lookup_;
   std::vector<Emitter> emitters_;
   std::vector<int32_t> emitterOfFace_;
-  Spectrum sky_;  ///< radiance, W/(m2 sr)
+  LightSources lights_;
 };
 
 Side SideFacing(const Vec3f& front, const Vec3f& direction) {
@@ -76,7 +77,8 @@ ProbeReader::ProbeReader(const Scene& scene, const RayScene& rays,
       rays_(rays),
       options_(options),
       lookup_(solution, scene.mesh.FaceCount()),
-      emitterOfFace_(size_t(scene.mesh.FaceCount()), -1) {
+      emitterOfFace_(size_t(scene.mesh.FaceCount()), -1),
+      lights_(scene.lights) {
   const TriangleMesh& mesh = scene.mesh;
   for (int32_t face = 0; face < int32_t(mesh.FaceCount()); ++face) {
     if (!(mesh.Emits(face, kFront) || mesh.Emits(face, kBack))) continue;
@@ -84,9 +86,6 @@ ProbeReader::ProbeReader(const Scene& scene, const RayScene& rays,
     if (mesh.emittance[size_t(face)].IsBlack() || !(area > 0)) continue;
     emitterOfFace_[size_t(face)] = int32_t(emitters_.size());
     emitters_.push_back({face, area});
-  }
-  for (const Light& light : scene.lights) {
-    if (light.type == LightType::Sky) sky_ += light.intensity;
   }
 }
 
@@ -178,7 +177,7 @@ ProbeReader::Gathered ProbeReader::Gather(const ProbePoint& probe, Random* rando
     const Vec3f direction = s * local.x + t * local.y + probe.normal * local.z;
     const RayHit hit = rays_.Closest(probe.position, direction);
     if (hit.face < 0) {
-      gathered.direct += sky_ * (float(kPi) * perRay);
+      gathered.direct += lights_.Radiance(direction) * (float(kPi) * perRay);
       continue;
     }
 
@@ -266,25 +265,11 @@ Spectrum ProbeReader::FromEmitters(const ProbePoint& probe, const std::vector<fl
 }
 
 Spectrum ProbeReader::FromLights(const ProbePoint& probe) const {
-  Spectrum sum;
-  for (const Light& light : scene_.lights) {
-    if (light.type == LightType::Sky) continue;
-    if (light.type == LightType::Directional) {
-      const Vec3f toward = Normalize(-light.direction);
-      const float cosine = Dot(probe.normal, toward);
-      if (cosine <= 0 || rays_.OccludedDirection(probe.position, toward)) continue;
-      sum += light.intensity * cosine;
-    } else {
-      const Vec3f offset = light.position - probe.position;
-      const float distance = Length(offset);
-      if (!(distance > 0)) continue;
-      const float cosine = Dot(probe.normal, offset) / distance;
-      if (cosine <= 0 || rays_.Occluded(probe.position, light.position)) continue;
-      sum +=
-          light.intensity * (cosine * light.ConeFactor(-offset / distance) / (distance * distance));
-    }
-  }
-  return sum;
+  const LitPlace place{probe.position, probe.normal, probe.normal};
+  return lights_.Irradiance(
+      place, options_.emitterRays, SeedOf(probe), [&](const LightSample& sample) {
+        return !rays_.Occluded(probe.position, sample.direction, sample.distance);
+      });
 }
 
 /// True where most directions of the whole sphere end on sides that no light was found to reach.

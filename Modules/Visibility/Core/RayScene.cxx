@@ -70,9 +70,13 @@ float RayScene::Diagonal() const { return implementation_->diagonal; }
 bool RayScene::Occluded(const Vec3f& from, const Vec3f& to) const {
   const Vec3f offset = to - from;
   const float distance = Length(offset);
+  return Occluded(from, offset / distance, distance);
+}
+
+bool RayScene::Occluded(const Vec3f& from, const Vec3f& unitDirection, float distance) const {
   if (!(distance > 2 * implementation_->epsilon)) return false;
-  RTCRay ray = MakeRay(from, offset / distance, implementation_->epsilon,
-                       distance - implementation_->epsilon);
+  RTCRay ray =
+      MakeRay(from, unitDirection, implementation_->epsilon, distance - implementation_->epsilon);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcOccluded1(implementation_->scene, &context, &ray);
@@ -84,12 +88,7 @@ void RayScene::Occluded(const Segment* segments, int count, uint8_t* occluded) c
 }
 
 bool RayScene::OccludedDirection(const Vec3f& from, const Vec3f& direction) const {
-  RTCRay ray = MakeRay(from, Normalize(direction), implementation_->epsilon,
-                       std::numeric_limits<float>::infinity());
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(implementation_->scene, &context, &ray);
-  return ray.tfar < 0;
+  return Occluded(from, Normalize(direction), std::numeric_limits<float>::infinity());
 }
 
 RayHit RayScene::Closest(const Vec3f& from, const Vec3f& unitDirection) const {

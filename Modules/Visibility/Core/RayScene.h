@@ -36,6 +36,8 @@ class RayScene {
   /// block. Safe to call from several threads.
   void Occluded(const Segment* segments, int count, uint8_t* occluded) const;
   bool Occluded(const Vec3f& from, const Vec3f& to) const;
+  /// The same up to `distance` (m, may be infinite) in a unit direction.
+  bool Occluded(const Vec3f& from, const Vec3f& unitDirection, float distance) const;
   /// True where a ray to infinity is blocked.
   bool OccludedDirection(const Vec3f& from, const Vec3f& direction) const;
   /// The closest hit beyond Epsilon().

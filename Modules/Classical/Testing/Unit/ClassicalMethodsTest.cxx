@@ -250,6 +250,30 @@ TEST_P(ClassicalMethods, OpenSky) {
   ExpectBalance(solved.statistics, 1e-3);
 }
 
+// The shadow of a screen in the light of a sun 20 degrees across, on a floor that lies far within
+// the screen's other edges: the penumbra, and light and dark beyond it.
+TEST_P(ClassicalMethods, ThePenumbraOfASun) {
+  const float size = float(20 * kPi / 180);
+  Scene scene = testing::ScreenUnderSun(size);
+  testing::AddQuad(&scene.mesh, {-0.5f, -0.5f, 0}, {1, 0, 0}, {0, 1, 0}, Spectrum(0.f),
+                   Spectrum(0.f), 1, 1, 1);
+  testing::CompleteTables(&scene);
+  const Solved solved = Solve(scene, 0.1);
+  double difference = 0;
+  int points = 0;
+  for (size_t p = 0; p < solved.solution.mesh.positions.size(); ++p) {
+    const Vec3f& x = solved.solution.mesh.positions[p];
+    if (x.z > 0.5f || solved.solution.mesh.normals[p].z < 0) continue;
+    const double expected = testing::Penumbra(double(x.x), double(size));
+    // Half an element of 0.1 m, at most 1.8 W/m2 per m; 16 rays.
+    EXPECT_NEAR(solved.solution.irradiance[p].g, expected, 0.25);
+    difference += double(solved.solution.irradiance[p].g) - expected;
+    ++points;
+  }
+  EXPECT_GT(points, 50);
+  EXPECT_NEAR(difference / points, 0, 0.02);  // The disc is 2 % wider than its projection.
+}
+
 /// Loose, touching, nearly parallel and sliver triangles, every tenth of which emits, in a room.
 Scene Heap(uint64_t seed) {
   Scene scene;

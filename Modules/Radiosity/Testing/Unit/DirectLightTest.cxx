@@ -89,5 +89,23 @@ TEST(GatheredPoints, LittleLightIsNotLost) {
   EXPECT_NEAR(mean / expected, 1, 0.06);
 }
 
+TEST(DirectLight, ThePenumbraOfASun) {
+  const float size = 0.04f;
+  const Scene scene = testing::ScreenUnderSun(size);
+  const RayScene rays(scene.mesh);
+  const DirectLight direct(scene, rays);
+  for (const float x : {-0.03f, -0.01f, 0.f, 0.005f, 0.015f, 0.03f}) {
+    double sum = 0;
+    constexpr int kRepeats = 64;
+    for (int k = 0; k < kRepeats; ++k) {
+      int64_t cast = 0;
+      sum += double(direct.Sample(OnFloor(x, 0), 64, uint64_t(k), &cast).irradiance.g);
+      EXPECT_EQ(cast, 16);
+    }
+    // 1024 rays, by 4 standard errors at most were they not spread.
+    EXPECT_NEAR(sum / kRepeats, testing::Penumbra(double(x), double(size)), 4 * 0.5 / 32);
+  }
+}
+
 }  // namespace
 }  // namespace lambert

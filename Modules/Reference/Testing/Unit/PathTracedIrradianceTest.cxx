@@ -164,6 +164,17 @@ TEST(PathTracedIrradiance, LightsReachByReflection) {
   ExpectIrradiance(At(scene, {0, 0, 1}, {0, 0, -1}, 4096), 0.4 * 3);
 }
 
+TEST(PathTracedIrradiance, PenumbraOfASun) {
+  const float size = 0.04f;
+  const Scene scene = ScreenUnderSun(size);
+  for (const float x : {-0.01f, 0.f, 0.005f, 0.015f}) {
+    // But for the square of the sun's size.
+    ExpectIrradiance(At(scene, {x, 0, 0}, {0, 0, 1}), Penumbra(double(x), double(size)), 1e-3);
+  }
+  EXPECT_EQ(At(scene, {-0.03f, 0, 0}, {0, 0, 1}).irradiance.g, 0);
+  EXPECT_NEAR(At(scene, {0.03f, 0, 0}, {0, 0, 1}).irradiance.g, 1, 1e-4);
+}
+
 TEST(PathTracedIrradiance, SkyOverPlaneAndBehindBlocker) {
   Scene scene;
   Light sky;

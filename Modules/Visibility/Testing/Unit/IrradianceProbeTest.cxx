@@ -99,6 +99,17 @@ TEST(IrradianceProbe, SkyAndSun) {
   EXPECT_NEAR(reading.irradiance.g, kPi + std::sqrt(2.0), 1e-4);
 }
 
+TEST(IrradianceProbe, PenumbraOfASun) {
+  const float size = 0.04f;
+  const Scene scene = ScreenUnderSun(size);
+  const RadiositySolution dark = FlatSolution(scene, 0, 0);
+  for (const float x : {-0.03f, -0.01f, 0.005f, 0.03f}) {
+    // 16 rays, spread over the disc.
+    EXPECT_NEAR(ReadAt(scene, dark, {x, 0, 0}, {0, 0, 1}).irradiance.g,
+                Penumbra(double(x), double(size)), 0.15);
+  }
+}
+
 TEST(IrradianceProbe, ReadsTheSideThatItFaces) {
   const Scene scene = BoxRoom(1, 0.5f, 1);
   RadiositySolution solution = FlatSolution(scene, 0, 4, false);

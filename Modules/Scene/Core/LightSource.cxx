@@ -1,0 +1,59 @@
+#include "Scene/Core/LightSource.h"
+
+#include <cstring>
+
+#include "Common/Core/Error.h"
+#include "Scene/Core/LightKinds.h"
+
+namespace lambert {
+
+std::unique_ptr<LightSource> MakeLightSource(const Light& light) {
+  switch (light.type) {
+    case LightType::Point:
+    case LightType::Spot:
+      return MakeLamp(light);
+    case LightType::Directional:
+      return MakeSun(light);
+    case LightType::Sky:
+      return MakeSky(light);
+  }
+  throw Error("The light \"" + light.name + "\" is of no known type.");
+}
+
+uint64_t SeedOfPlace(const Vec3f& position) {
+  uint64_t seed = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    uint32_t bits = 0;
+    std::memcpy(&bits, &position[axis], sizeof bits);
+    seed = HashBits(seed, bits);
+  }
+  return seed;
+}
+
+LightSources::LightSources(const std::vector<Light>& lights) {
+  for (const Light& light : lights) {
+    if (!light.IsBlack()) sources_.push_back(MakeLightSource(light));
+  }
+}
+
+bool LightSources::FillSky() const {
+  return std::any_of(begin(), end(), [](const auto& source) { return source->FillsSky(); });
+}
+
+Spectrum LightSources::Radiance(const Vec3f& direction) const {
+  Spectrum sum;
+  for (const auto& source : sources_) sum += source->Radiance(direction);
+  return sum;
+}
+
+Spectrum LightSources::LargestRadiance() const {
+  Spectrum sum;
+  for (const auto& source : sources_) sum += source->LargestRadiance();
+  return sum;
+}
+
+bool LightSources::HaveSamples() const {
+  return std::any_of(begin(), end(), [](const auto& source) { return source->Samples() > 0; });
+}
+
+}  // namespace lambert
