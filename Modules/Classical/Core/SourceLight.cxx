@@ -35,8 +35,7 @@ int ClipAtHorizon(const Vec3f* triangle, const LightReceiver& at, Vec3f* corners
 
 Spectrum FromSamples(const LightSources& lights, const LightReceiver& at, const RayScene& rays,
                      int64_t* cast) {
-  const LitPlace place{at.position, at.normal, at.geometric};
-  return lights.Irradiance(place, kRaysPerLight, SeedOfPlace(at.position),
+  return lights.Irradiance(at, kRaysPerLight, SeedOfPlace(at.position),
                            [&](const LightSample& sample) {
                              ++*cast;
                              return !rays.Occluded(at.position, sample.direction, sample.distance);

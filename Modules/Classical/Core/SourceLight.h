@@ -12,13 +12,8 @@
 
 namespace lambert {
 
-/// A place that light is asked for: only directions of the hemispheres of both normals count, and
-/// irradiance is for `normal`.
-struct LightReceiver {
-  Vec3f position;   ///< world space, m
-  Vec3f normal;     ///< unit
-  Vec3f geometric;  ///< unit, of the side of the face that it lies on
-};
+/// A place that light is asked for.
+using LightReceiver = LitPlace;
 
 /// Irradiance (W/m2) from the samples of lights without geometry, by the place alone. Adds the rays
 /// cast to `cast`.
@@ -38,9 +33,7 @@ class SourceLight {
     return FromSamples(lights_, at, rays_, cast);
   }
 
-  /// True where rays that meet nothing find light.
-  bool HaveSky() const { return lights_.FillSky(); }
-  /// What they find in a unit direction, W/(m2 sr).
+  /// What rays that meet nothing find in a unit direction, W/(m2 sr).
   Spectrum Sky(const Vec3f& direction) const { return lights_.Radiance(direction); }
 
  private:

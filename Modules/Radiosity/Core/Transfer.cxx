@@ -166,7 +166,6 @@ float VisibleFraction(const ElementHierarchy& hierarchy, const RayScene& rayScen
 
 Vec3f SkyTransfer(const LightSource& sky, const RayScene& rayScene, const Element& source,
                   const Vec3f& x, const Vec3f& horizon, float* visible, int64_t* rays) {
-  // What fills the sky.
   Vec3f u, v, sum;
   CoordinateSystem(horizon, &u, &v);
   float open = 0, all = 0;
@@ -179,17 +178,7 @@ Vec3f SkyTransfer(const LightSource& sky, const RayScene& rayScene, const Elemen
   }
   *rays += kSkyDirections;
   *visible = open / all;
-  sum *= float(2 * kPi / kSkyDirections);
-
-  // Its small bright parts.
-  for (int k = 0; k < sky.Samples(); ++k) {
-    const LightSample sample = SampleOf(sky, k, sky.Samples(), x);
-    if (Dot(sample.direction, horizon) <= 0) continue;
-    ++*rays;
-    if (rayScene.Occluded(x, sample.direction, sample.distance)) continue;
-    sum += sample.direction * (PerUnit(sample.irradiance, source.emittance) / float(sky.Samples()));
-  }
-  return sum;
+  return sum * float(2 * kPi / kSkyDirections);
 }
 
 namespace {
