@@ -52,9 +52,9 @@ class LAMBERTCOMMON_EXPORT vtkRadiosityArrays : public vtkObject {
   static const char* PartObjectToWorld() { return "Part.ObjectToWorld"; }  ///< 16 double, row-major
   static const char* LightName() { return "Light.Name"; }                  ///< string
   static const char* LightType() { return "Light.Type"; }  ///< point, spot, directional, sky
-  static const char* LightPosition() { return "Light.Position"; }        ///< 3 float, m
-  static const char* LightDirection() { return "Light.Direction"; }      ///< 3 float, unit
-  static const char* LightIntensity() { return "Light.Intensity"; }      ///< W/sr, W/m2, W/(m2 sr)
+  static const char* LightPosition() { return "Light.Position"; }    ///< 3 float, m
+  static const char* LightDirection() { return "Light.Direction"; }  ///< 3 float, unit
+  static const char* LightIntensity() { return "Light.Intensity"; }  ///< W/sr, W/m2, W/(m2 sr)
   static const char* LightSize() { return "Light.Size"; }  ///< radius, m; diameter, radians
   static const char* LightConeAngles() { return "Light.ConeAngles"; }    ///< 2 float, radians
   static const char* CameraPosition() { return "Camera.Position"; }      ///< 3 double, m

@@ -4,7 +4,6 @@
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
-#include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
@@ -13,75 +12,19 @@
 #include "vtkPolyData.h"
 #include "vtkRadiosityArrays.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkValueArrays.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 
 namespace lambert {
 namespace {
-/// Values of a data array of any type as `components` floats a tuple; empty where there is none.
-template <class T>
-std::vector<T> ReadTuples(vtkDataArray* array, int components, const char* name) {
-  std::vector<T> values;
-  if (!array) {
-    return values;
-  }
-  if (array->GetNumberOfComponents() != components) {
-    throw Error(std::string("The array ") + name + " has " +
-                std::to_string(array->GetNumberOfComponents()) + " components; it needs " +
-                std::to_string(components) + ".");
-  }
-  values.resize(static_cast<size_t>(array->GetNumberOfTuples()));
-  if (auto* floats = vtkFloatArray::FastDownCast(array); floats && !values.empty()) {
-    std::memcpy(static_cast<void*>(values.data()), floats->GetPointer(0),
-                values.size() * sizeof(T));
-    return values;
-  }
-  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) {
-    float* tuple = reinterpret_cast<float*>(&values[static_cast<size_t>(i)]);
-    for (int c = 0; c < components; ++c) {
-      tuple[c] = static_cast<float>(array->GetComponent(i, c));
-    }
-  }
-  return values;
-}
-
-template <class T>
-std::vector<T> ReadScalars(vtkDataArray* array) {
-  std::vector<T> values;
-  if (array) {
-    values.resize(static_cast<size_t>(array->GetNumberOfTuples()));
-    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i) {
-      values[static_cast<size_t>(i)] = static_cast<T>(array->GetComponent(i, 0));
-    }
-  }
-  return values;
-}
-
 template <class Array, class T>
 void WriteScalars(vtkDataSetAttributes* data, const char* name, const std::vector<T>& values) {
   if (values.empty()) {
     return;
   }
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  data->AddArray(array);
-}
-
-template <class T>
-vtkSmartPointer<vtkFloatArray> FloatArray(const char* name, int components,
-                                          const std::vector<T>& values) {
-  auto array = vtkSmartPointer<vtkFloatArray>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-  if (!values.empty()) {
-    std::memcpy(array->GetPointer(0), values.data(), values.size() * sizeof(T));
-  }
-  return array;
+  data->AddArray(ArrayFromNumbers<Array>(name, values));
 }
 
 /// Reflectance is clamped to [0, 0.98]; emittance that makes no sense is an error.
@@ -112,9 +55,9 @@ TriangleMesh TriangleMeshFromPolyData(vtkPolyData* input) {
   if (input->GetNumberOfPoints() > std::numeric_limits<int32_t>::max()) {
     throw Error("The data has more than 2^31 points; split it.");
   }
-  mesh.positions = ReadTuples<Vec3f>(input->GetPoints()->GetData(), 3, "Points");
-  mesh.normals = ReadTuples<Vec3f>(pointData->GetNormals(), 3, "Normals");
-  mesh.uvs = ReadTuples<Vec2f>(pointData->GetTCoords(), 2, "TCoords");
+  mesh.positions = TuplesFromArray<Vec3f>(input->GetPoints()->GetData(), "Points");
+  mesh.normals = TuplesFromArray<Vec3f>(pointData->GetNormals(), "Normals");
+  mesh.uvs = TuplesFromArray<Vec2f>(pointData->GetTCoords(), "TCoords");
 
   // Faces.
   vtkCellArray* polys = input->GetPolys();
@@ -139,14 +82,14 @@ TriangleMesh TriangleMeshFromPolyData(vtkPolyData* input) {
   vtkCellData* cellData = input->GetCellData();
   using Names = vtkRadiosityArrays;
   mesh.reflectance =
-      ReadTuples<Spectrum>(cellData->GetArray(Names::Reflectance()), 3, Names::Reflectance());
+      TuplesFromArray<Spectrum>(cellData->GetArray(Names::Reflectance()), Names::Reflectance());
   mesh.emittance =
-      ReadTuples<Spectrum>(cellData->GetArray(Names::Emittance()), 3, Names::Emittance());
-  mesh.faceFlags = ReadScalars<uint8_t>(cellData->GetArray(Names::FaceFlags()));
-  mesh.materialId = ReadScalars<int32_t>(cellData->GetArray(Names::MaterialId()));
-  mesh.partId = ReadScalars<int32_t>(cellData->GetArray(Names::PartId()));
-  mesh.surfaceId = ReadScalars<int32_t>(cellData->GetArray(Names::SurfaceId()));
-  mesh.sourceCellId = ReadScalars<int64_t>(cellData->GetArray(Names::SourceCellId()));
+      TuplesFromArray<Spectrum>(cellData->GetArray(Names::Emittance()), Names::Emittance());
+  mesh.faceFlags = NumbersFromArray<uint8_t>(cellData->GetArray(Names::FaceFlags()));
+  mesh.materialId = NumbersFromArray<int32_t>(cellData->GetArray(Names::MaterialId()));
+  mesh.partId = NumbersFromArray<int32_t>(cellData->GetArray(Names::PartId()));
+  mesh.surfaceId = NumbersFromArray<int32_t>(cellData->GetArray(Names::SurfaceId()));
+  mesh.sourceCellId = NumbersFromArray<int64_t>(cellData->GetArray(Names::SourceCellId()));
   BringIntoRange(&mesh);
   mesh.Complete();
   return mesh;
@@ -157,13 +100,13 @@ void PolyDataFromTriangleMesh(const TriangleMesh& mesh, vtkPolyData* output) {
 
   // Points.
   vtkNew<vtkPoints> points;
-  points->SetData(FloatArray("Points", 3, mesh.positions));
+  points->SetData(ArrayFromTuples("Points", mesh.positions));
   output->SetPoints(points);
   if (!mesh.normals.empty()) {
-    output->GetPointData()->SetNormals(FloatArray("Normals", 3, mesh.normals));
+    output->GetPointData()->SetNormals(ArrayFromTuples("Normals", mesh.normals));
   }
   if (!mesh.uvs.empty()) {
-    output->GetPointData()->SetTCoords(FloatArray("TCoords", 2, mesh.uvs));
+    output->GetPointData()->SetTCoords(ArrayFromTuples("TCoords", mesh.uvs));
   }
 
   // Faces.
@@ -189,10 +132,10 @@ void PolyDataFromTriangleMesh(const TriangleMesh& mesh, vtkPolyData* output) {
   vtkCellData* cellData = output->GetCellData();
   using Names = vtkRadiosityArrays;
   if (!mesh.reflectance.empty()) {
-    cellData->AddArray(FloatArray(Names::Reflectance(), 3, mesh.reflectance));
+    cellData->AddArray(ArrayFromTuples(Names::Reflectance(), mesh.reflectance));
   }
   if (!mesh.emittance.empty()) {
-    cellData->AddArray(FloatArray(Names::Emittance(), 3, mesh.emittance));
+    cellData->AddArray(ArrayFromTuples(Names::Emittance(), mesh.emittance));
   }
   WriteScalars<vtkUnsignedCharArray>(cellData, Names::FaceFlags(), mesh.faceFlags);
   WriteScalars<vtkIntArray>(cellData, Names::MaterialId(), mesh.materialId);

@@ -1,5 +1,6 @@
 #include "FalseColorPicture.h"
 
+#include "OffScreenWindow.h"
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
@@ -15,12 +16,10 @@
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkRadiosityArrays.h"
-#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkScalarBarActor.h"
 #include "vtkTextProperty.h"
 #include "vtkTriangleMeshAdapter.h"
-#include "vtkWindowToImageFilter.h"
 
 namespace lambert {
 namespace {
@@ -147,14 +146,6 @@ class SurfacesBehindLines {
  private:
   int Before = vtkMapper::GetResolveCoincidentTopology();
 };
-
-vtkSmartPointer<vtkImageData> Grab(vtkRenderWindow* window) {
-  vtkNew<vtkWindowToImageFilter> grab;
-  grab->SetInput(window);
-  grab->ReadFrontBufferOff();
-  grab->Update();
-  return grab->GetOutput();
-}
 }  // namespace
 
 vtkSmartPointer<vtkImageData> DrawFalseColors(vtkPolyData* mesh, vtkCamera* camera,
@@ -179,14 +170,10 @@ vtkSmartPointer<vtkImageData> DrawFalseColors(vtkPolyData* mesh, vtkCamera* came
   vtkNew<vtkRenderer> strip;
   strip->SetViewport(1 - kStrip, 0, 1, 1);
   strip->AddActor2D(Scale(options, colors));
-  vtkNew<vtkRenderWindow> window;
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(0);
-  window->SetSize(width, height);
+  const auto window = OffScreenWindow(width, height);
   window->AddRenderer(light);
   window->AddRenderer(strip);
   const SurfacesBehindLines guard;
-  window->Render();
-  return Grab(window);
+  return RenderAndGrab(window);
 }
 }  // namespace lambert

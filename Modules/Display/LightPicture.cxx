@@ -3,6 +3,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 #include "Display/Core/DodgingAndBurning.h"
+#include "OffScreenWindow.h"
 #include "vtkCamera.h"
 #include "vtkCameraPass.h"
 #include "vtkFloatArray.h"
@@ -17,7 +18,6 @@
 #include "vtkRadiosityActor.h"
 #include "vtkRadiosityArrays.h"
 #include "vtkRenderPassCollection.h"
-#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkSequencePass.h"
 #include "vtkTextureObject.h"
@@ -88,10 +88,7 @@ LightImage DrawLight(vtkPolyData* mesh, vtkCamera* camera, int width, int height
   renderer->AddActor(actor);
   const auto pass = PassIntoFloats();
   renderer->SetPass(pass);
-  vtkNew<vtkRenderWindow> window;
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(0);
-  window->SetSize(width, height);
+  const auto window = OffScreenWindow(width, height);
   window->AddRenderer(renderer);
   renderer->SetActiveCamera(camera);
   renderer->ResetCameraClippingRange();

@@ -4,7 +4,6 @@
 #include "Display/Core/PointAppearance.h"
 #include "RadiosityShader.h"
 #include "vtkCellData.h"
-#include "vtkFloatArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -17,6 +16,7 @@
 #include "vtkShaderProperty.h"
 #include "vtkTexture.h"
 #include "vtkTriangleMeshAdapter.h"
+#include "vtkValueArrays.h"
 
 #include <algorithm>
 #include <string>
@@ -25,36 +25,6 @@ vtkStandardNewMacro(vtkRadiosityActor);
 
 namespace {
 using Names = vtkRadiosityArrays;
-
-/// Tuples of `Tuple`, floats without gaps, from an array; none where there is no such array.
-template <class Tuple>
-std::vector<Tuple> Tuples(vtkDataArray* array) {
-  constexpr int kComponents = sizeof(Tuple) / sizeof(float);
-  if (!array) {
-    return {};
-  }
-  if (array->GetNumberOfComponents() != kComponents) {
-    throw lambert::Error("The array " + std::string(array->GetName() ? array->GetName() : "") +
-                         " needs " + std::to_string(kComponents) + " components.");
-  }
-  vtkNew<vtkFloatArray> floats;
-  floats->DeepCopy(array);
-  std::vector<Tuple> tuples(static_cast<size_t>(array->GetNumberOfTuples()));
-  std::copy_n(floats->GetPointer(0), floats->GetNumberOfValues(),
-              reinterpret_cast<float*>(tuples.data()));
-  return tuples;
-}
-
-template <class Tuple>
-vtkSmartPointer<vtkFloatArray> ArrayOf(const char* name, const std::vector<Tuple>& tuples) {
-  auto array = vtkSmartPointer<vtkFloatArray>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(sizeof(Tuple) / sizeof(float));
-  array->SetNumberOfTuples(static_cast<vtkIdType>(tuples.size()));
-  std::copy_n(reinterpret_cast<const float*>(tuples.data()), array->GetNumberOfValues(),
-              array->GetPointer(0));
-  return array;
-}
 
 /// Vertex attributes of the shader and the arrays that they are read from.
 constexpr std::pair<const char*, const char*> kAttributes[] = {
@@ -66,15 +36,14 @@ constexpr std::pair<const char*, const char*> kAttributes[] = {
 lambert::PointLight LightOf(vtkPolyData* mesh, int pages) {
   vtkPointData* points = mesh->GetPointData();
   lambert::PointLight light;
-  light.irradiance = Tuples<lambert::Spectrum>(points->GetArray(Names::Irradiance()));
-  light.radiosity = Tuples<lambert::Spectrum>(points->GetArray(Names::Radiosity()));
-  light.lightMapCoords = Tuples<lambert::Vec2f>(points->GetArray(Names::LightMapTCoords()));
+  light.irradiance = lambert::TuplesFromArray<lambert::Spectrum>(
+      points->GetArray(Names::Irradiance()), Names::Irradiance());
+  light.radiosity = lambert::TuplesFromArray<lambert::Spectrum>(
+      points->GetArray(Names::Radiosity()), Names::Radiosity());
+  light.lightMapCoords = lambert::TuplesFromArray<lambert::Vec2f>(
+      points->GetArray(Names::LightMapTCoords()), Names::LightMapTCoords());
   light.pages = pages;
-  if (vtkDataArray* page = mesh->GetCellData()->GetArray(Names::PageId())) {
-    for (vtkIdType cell = 0; cell < page->GetNumberOfTuples(); ++cell) {
-      light.page.push_back(static_cast<int32_t>(page->GetComponent(cell, 0)));
-    }
-  }
+  light.page = lambert::NumbersFromArray<int32_t>(mesh->GetCellData()->GetArray(Names::PageId()));
   return light;
 }
 }  // namespace
@@ -171,14 +140,15 @@ void vtkRadiosityActor::UpdateLightMap() {
     if (!std::equal(size, size + 3, page->GetDimensions()) || !page->GetPointData()->GetScalars()) {
       throw lambert::Error("The pages of a light map need light in them and one size for all.");
     }
-    const auto light = Tuples<lambert::Spectrum>(page->GetPointData()->GetScalars());
+    const auto light = lambert::TuplesFromArray<lambert::Spectrum>(
+        page->GetPointData()->GetScalars(), "of a page");
     this->LightMap->pixels.insert(this->LightMap->pixels.end(), light.begin(), light.end());
   }
 
   // As a texture of floats.
   vtkNew<vtkImageData> image;
   image->SetDimensions(this->LightMap->width, this->LightMap->height, 1);
-  image->GetPointData()->SetScalars(ArrayOf("Irradiance", this->LightMap->pixels));
+  image->GetPointData()->SetScalars(lambert::ArrayFromTuples("Irradiance", this->LightMap->pixels));
   this->LightMapTexture->SetInputData(image);
   this->GetProperty()->SetTexture("lightMap", this->LightMapTexture);
 }
@@ -193,10 +163,10 @@ void vtkRadiosityActor::UpdateAppearance() {
   vtkPointData* points = this->Drawn->GetPointData();
   points->SetNormals(this->Mesh->GetPointData()->GetNormals());
   points->SetTCoords(this->Mesh->GetPointData()->GetTCoords());
-  points->AddArray(ArrayOf(kAttributes[0].second, appearance.vertexRadiosity));
-  points->AddArray(ArrayOf(kAttributes[1].second, appearance.vertexIrradiance));
-  points->AddArray(ArrayOf(kAttributes[2].second, appearance.reflectance));
-  points->AddArray(ArrayOf(kAttributes[3].second, appearance.lightMapCoords));
+  points->AddArray(lambert::ArrayFromTuples(kAttributes[0].second, appearance.vertexRadiosity));
+  points->AddArray(lambert::ArrayFromTuples(kAttributes[1].second, appearance.vertexIrradiance));
+  points->AddArray(lambert::ArrayFromTuples(kAttributes[2].second, appearance.reflectance));
+  points->AddArray(lambert::ArrayFromTuples(kAttributes[3].second, appearance.lightMapCoords));
 
   // What the eye adapts to, and the sides that are there.
   this->Samples = lambert::ShownSamples(mesh, appearance, *this->LightMap);

@@ -5,6 +5,7 @@
 #include "Display/Core/ToneMapping.h"
 #include "FalseColorPicture.h"
 #include "LightPicture.h"
+#include "OffScreenWindow.h"
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkErrorCode.h"
@@ -20,11 +21,10 @@
 #include "vtkProperty.h"
 #include "vtkRadiosityArrays.h"
 #include "vtkRadiosityToneMapping.h"
-#include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 #include "vtkTriangleMeshAdapter.h"
 #include "vtkUnsignedCharArray.h"
-#include "vtkWindowToImageFilter.h"
+#include "vtkValueArrays.h"
 
 #include <X11/Xlib.h>
 
@@ -40,18 +40,12 @@ constexpr int kSupersampling = 2;
 constexpr int kMaximumSize = 8192;
 
 std::vector<lambert::Spectrum> ReadLight(vtkPolyData* data, const char* name) {
-  std::vector<lambert::Spectrum> light(static_cast<size_t>(data->GetNumberOfPoints()));
   vtkDataArray* array = data->GetPointData()->GetArray(name);
   if (!array || array->GetNumberOfComponents() != 3) {
     throw lambert::Error("The data has no point array " + std::string(name) +
                          " of three components; run a radiosity method first.");
   }
-  for (size_t point = 0; point < light.size(); ++point) {
-    double tuple[3];
-    array->GetTuple(static_cast<vtkIdType>(point), tuple);
-    light[point] = {float(tuple[0]), float(tuple[1]), float(tuple[2])};
-  }
-  return light;
+  return lambert::TuplesFromArray<lambert::Spectrum>(array, name);
 }
 }  // namespace
 
@@ -210,19 +204,12 @@ vtkSmartPointer<vtkImageData> vtkRadiosityImageWriter::DrawColors(vtkPolyData* s
   // Off-screen, on black: where there is nothing, there is no light.
   vtkNew<vtkRenderer> renderer;
   renderer->AddActor(actor);
-  vtkNew<vtkRenderWindow> window;
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(0);
-  window->SetSize(kSupersampling * this->Size[0], kSupersampling * this->Size[1]);
+  const auto window =
+      lambert::OffScreenWindow(kSupersampling * this->Size[0], kSupersampling * this->Size[1]);
   window->AddRenderer(renderer);
   renderer->SetActiveCamera(camera);
   renderer->ResetCameraClippingRange();
-  window->Render();
-  vtkNew<vtkWindowToImageFilter> grab;
-  grab->SetInput(window);
-  grab->ReadFrontBufferOff();
-  grab->Update();
-  return grab->GetOutput();
+  return lambert::RenderAndGrab(window);
 }
 
 void vtkRadiosityImageWriter::WriteImage(vtkImageData* image) {

@@ -11,6 +11,7 @@
 #include "vtkRadiosityArrays.h"
 #include "vtkTriangleMeshAdapter.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkValueArrays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,14 +91,7 @@ std::vector<lambert::Spectrum> PointLight(vtkPolyData* input) {
         "The input has no point array Radiosity or Irradiance of three components; "
         "run a radiosity method first.");
   }
-  std::vector<lambert::Spectrum> light(static_cast<size_t>(array->GetNumberOfTuples()));
-  for (size_t point = 0; point < light.size(); ++point) {
-    for (int band = 0; band < 3; ++band) {
-      const vtkIdType id = static_cast<vtkIdType>(point);
-      light[point][band] = static_cast<float>(array->GetComponent(id, band));
-    }
-  }
-  return light;
+  return lambert::TuplesFromArray<lambert::Spectrum>(array, array->GetName());
 }
 }  // namespace
 

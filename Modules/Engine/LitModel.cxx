@@ -2,6 +2,7 @@
 
 #include "Atlas/Core/ChartMesh.h"
 #include "Atlas/Core/RadiosityMap.h"
+#include "Atlas/Core/SurfaceSubset.h"
 #include "Display/Core/DefaultCamera.h"
 #include "Display/Core/ToneMapping.h"
 #include "Display/Core/UpAxis.h"
@@ -28,48 +29,23 @@ LitModel EmptyModel(const Scene& scene, const RadiositySolution& solution) {
   return model;
 }
 
-/// Numbers the points of a mesh that are used, in the order of their use.
-class PointNumbers {
- public:
-  explicit PointNumbers(size_t points) : Numbers(points, -1) {}
-
-  /// Calls add(point) when a point is met first.
-  template <class Add>
-  std::array<int32_t, 3> operator()(const std::array<int32_t, 3>& triangle, const Add& add) {
-    std::array<int32_t, 3> numbered;
-    for (size_t c = 0; c < 3; ++c) {
-      int32_t& number = this->Numbers[static_cast<size_t>(triangle[c])];
-      if (number < 0) {
-        number = this->Count++;
-        add(static_cast<size_t>(triangle[c]));
-      }
-      numbered[c] = number;
-    }
-    return numbered;
-  }
-
- private:
-  std::vector<int32_t> Numbers;
-  int32_t Count = 0;
-};
-
 /// Adds `triangles` of the solution with colours at their points.
-void AddColoredMesh(const RadiositySolution& solution, const std::vector<size_t>& triangles,
+void AddColoredMesh(const RadiositySolution& solution, const std::vector<int64_t>& triangles,
                     const ToneMapping& toneMapping, LitModel* model) {
   if (triangles.empty()) {
     return;
   }
+  std::vector<int64_t> points;
+  TriangleMesh taken = TakeFaces(solution.mesh, triangles, &points);
   LitMesh lit;
   lit.name = "lit at its points";
-  PointNumbers numbers(solution.mesh.positions.size());
-  for (size_t triangle : triangles) {
-    lit.triangles.push_back(numbers(solution.mesh.triangles[triangle], [&](size_t point) {
-      const Spectrum display = toneMapping.Apply(solution.radiosity[point]);
-      model->clippedPoints += IsClipped(display);
-      lit.positions.push_back(solution.mesh.positions[point]);
-      lit.colors.emplace_back(LinearFromSrgb(display.r), LinearFromSrgb(display.g),
-                              LinearFromSrgb(display.b));
-    }));
+  lit.positions = std::move(taken.positions);
+  lit.triangles = std::move(taken.triangles);
+  for (int64_t point : points) {
+    const Spectrum display = toneMapping.Apply(solution.radiosity[static_cast<size_t>(point)]);
+    model->clippedPoints += IsClipped(display);
+    lit.colors.emplace_back(LinearFromSrgb(display.r), LinearFromSrgb(display.g),
+                            LinearFromSrgb(display.b));
   }
   model->meshes.push_back(std::move(lit));
 }
@@ -96,14 +72,14 @@ LitImage ImageOfPage(const std::vector<Spectrum>& radiosity, const std::vector<i
 /// Faces whose light the map holds: by face, whether the side that shows is lit. The triangles of
 /// the solution that lie on other sides go to `others`.
 std::vector<bool> MappedFaces(const TriangleMesh& mesh, const RadiositySolution& solution,
-                              const std::vector<uint8_t>& sides, std::vector<size_t>* others) {
+                              const std::vector<uint8_t>& sides, std::vector<int64_t>* others) {
   std::vector<bool> isMapped(mesh.triangles.size(), false);
   for (size_t triangle = 0; triangle < solution.side.size(); ++triangle) {
     const size_t face = static_cast<size_t>(solution.inputFaceId[triangle]);
     if (solution.side[triangle] == sides[static_cast<size_t>(mesh.surfaceId[face])]) {
       isMapped[face] = true;
     } else {
-      others->push_back(triangle);
+      others->push_back(static_cast<int64_t>(triangle));
     }
   }
   return isMapped;
@@ -113,20 +89,23 @@ std::vector<bool> MappedFaces(const TriangleMesh& mesh, const RadiositySolution&
 LitMesh MeshOfPage(const TriangleMesh& split, const std::vector<Vec2f>& textureCoords,
                    const std::vector<int32_t>& pageOfFace, int page,
                    const std::vector<bool>& isMapped, const std::vector<uint8_t>& sides) {
-  LitMesh lit;
-  PointNumbers numbers(split.positions.size());
+  std::vector<int64_t> faces, points;
   for (size_t face = 0; face < split.triangles.size(); ++face) {
-    if (pageOfFace[face] != page || !isMapped[face]) {
-      continue;
+    if (pageOfFace[face] == page && isMapped[face]) {
+      faces.push_back(static_cast<int64_t>(face));
     }
-    std::array<int32_t, 3> corners = numbers(split.triangles[face], [&](size_t point) {
-      lit.positions.push_back(split.positions[point]);
-      lit.textureCoords.push_back(textureCoords[point]);
-    });
-    if (sides[static_cast<size_t>(split.surfaceId[face])] == kBack) {
-      std::swap(corners[1], corners[2]);
+  }
+  TriangleMesh taken = TakeFaces(split, faces, &points);
+  LitMesh lit;
+  lit.positions = std::move(taken.positions);
+  lit.triangles = std::move(taken.triangles);
+  for (int64_t point : points) {
+    lit.textureCoords.push_back(textureCoords[static_cast<size_t>(point)]);
+  }
+  for (size_t face = 0; face < lit.triangles.size(); ++face) {
+    if (sides[static_cast<size_t>(taken.surfaceId[face])] == kBack) {
+      std::swap(lit.triangles[face][1], lit.triangles[face][2]);
     }
-    lit.triangles.push_back(corners);
   }
   return lit;
 }
@@ -135,8 +114,8 @@ LitMesh MeshOfPage(const TriangleMesh& split, const std::vector<Vec2f>& textureC
 LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
                       const ToneMappingOptions& tone) {
   LitModel model = EmptyModel(scene, solution);
-  std::vector<size_t> triangles(solution.mesh.triangles.size());
-  std::iota(triangles.begin(), triangles.end(), size_t(0));
+  std::vector<int64_t> triangles(solution.mesh.triangles.size());
+  std::iota(triangles.begin(), triangles.end(), int64_t(0));
   AddColoredMesh(solution, triangles, AdaptTo(solution, tone), &model);
   return model;
 }
@@ -151,7 +130,7 @@ LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
   const std::vector<std::vector<Spectrum>> pages = MakeRadiosityMap(scene.mesh, atlas, map, sides);
 
   // Faces of the map, a mesh and an image a page.
-  std::vector<size_t> others;
+  std::vector<int64_t> others;
   const std::vector<bool> isMapped = MappedFaces(scene.mesh, solution, sides, &others);
   TriangleMesh split = scene.mesh;
   const std::vector<Vec2f> textureCoords = SplitAtCharts(atlas, &split);

@@ -10,6 +10,7 @@
 #include "vtkRadiosityArrays.h"
 #include "vtkSceneAdapter.h"
 #include "vtkTable.h"
+#include "vtkValueArrays.h"
 
 #include <algorithm>
 #include <numeric>
@@ -29,17 +30,6 @@ void AddSky(const double radiance[3], Scene* scene) {
   if (!sky.intensity.IsBlack()) {
     scene->lights.push_back(sky);
   }
-}
-
-vtkSmartPointer<vtkFloatArray> ToArray(const char* name, const std::vector<Spectrum>& values) {
-  auto array = vtkSmartPointer<vtkFloatArray>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-  for (size_t i = 0; i < values.size(); ++i) {
-    array->SetTypedTuple(static_cast<vtkIdType>(i), &values[i].r);
-  }
-  return array;
 }
 }  // namespace
 
@@ -108,7 +98,7 @@ void FillInputMesh(const RadiositySolution& solution, const MethodScene& methodS
     irradiance[point] = irradiance[point] * share;
     radiosity[point] = radiosity[point] * share;
   }
-  output->GetPointData()->AddArray(ToArray(vtkRadiosityArrays::Irradiance(), irradiance));
-  output->GetPointData()->AddArray(ToArray(vtkRadiosityArrays::Radiosity(), radiosity));
+  output->GetPointData()->AddArray(ArrayFromTuples(vtkRadiosityArrays::Irradiance(), irradiance));
+  output->GetPointData()->AddArray(ArrayFromTuples(vtkRadiosityArrays::Radiosity(), radiosity));
 }
 }  // namespace lambert

@@ -4,7 +4,6 @@
 #include "Scene/Core/PointNormals.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -14,9 +13,9 @@
 #include "vtkTriangleFilter.h"
 #include "vtkTriangleMeshAdapter.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkValueArrays.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace lambert {
 namespace {
@@ -60,26 +59,6 @@ void CoverIds(const std::vector<int32_t>& ids, const char* name, std::vector<Row
   table->resize(std::max({table->size(), rows, size_t{1}}));
 }
 
-void AddSpectra(vtkDataSetAttributes* data, const char* name, const std::vector<Spectrum>& values) {
-  vtkNew<vtkFloatArray> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
-  if (!values.empty()) {
-    std::memcpy(array->GetPointer(0), values.data(), values.size() * sizeof(Spectrum));
-  }
-  data->AddArray(array);
-}
-
-template <class Array, class T>
-void AddScalars(vtkDataSetAttributes* data, const char* name, const std::vector<T>& values) {
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  data->AddArray(array);
-}
-
 /// An array that a solution must have, a tuple for each of `count` points or cells.
 vtkDataArray* RequireArray(vtkDataSetAttributes* data, const char* name, int components,
                            size_t count) {
@@ -91,26 +70,6 @@ vtkDataArray* RequireArray(vtkDataSetAttributes* data, const char* name, int com
                 "; it takes output port 0 of a radiosity method.");
   }
   return array;
-}
-
-std::vector<Spectrum> ReadSpectra(vtkDataArray* array) {
-  std::vector<Spectrum> values(static_cast<size_t>(array->GetNumberOfTuples()));
-  for (size_t i = 0; i < values.size(); ++i) {
-    for (int band = 0; band < 3; ++band) {
-      values[i][band] = static_cast<float>(array->GetComponent(static_cast<vtkIdType>(i), band));
-    }
-  }
-  return values;
-}
-
-/// Numbers of faces or sides, exact in a double.
-template <class T>
-std::vector<T> ReadNumbers(vtkDataArray* array) {
-  std::vector<T> values(static_cast<size_t>(array->GetNumberOfTuples()));
-  for (size_t i = 0; i < values.size(); ++i) {
-    values[i] = static_cast<T>(array->GetComponent(static_cast<vtkIdType>(i), 0));
-  }
-  return values;
 }
 }  // namespace
 
@@ -144,13 +103,13 @@ void PolyDataFromSolution(const RadiositySolution& solution, const Scene& scene,
                           vtkPolyData* output) {
   PolyDataFromTriangleMesh(solution.mesh, output);
   vtkCellData* cells = output->GetCellData();
-  AddScalars<vtkIdTypeArray>(cells, Names::InputFaceId(), solution.inputFaceId);
-  AddScalars<vtkUnsignedCharArray>(cells, Names::Side(), solution.side);
+  cells->AddArray(ArrayFromNumbers<vtkIdTypeArray>(Names::InputFaceId(), solution.inputFaceId));
+  cells->AddArray(ArrayFromNumbers<vtkUnsignedCharArray>(Names::Side(), solution.side));
   if (!solution.leafId.empty()) {
-    AddScalars<vtkIdTypeArray>(cells, Names::LeafId(), solution.leafId);
+    cells->AddArray(ArrayFromNumbers<vtkIdTypeArray>(Names::LeafId(), solution.leafId));
   }
-  AddSpectra(output->GetPointData(), Names::Irradiance(), solution.irradiance);
-  AddSpectra(output->GetPointData(), Names::Radiosity(), solution.radiosity);
+  output->GetPointData()->AddArray(ArrayFromTuples(Names::Irradiance(), solution.irradiance));
+  output->GetPointData()->AddArray(ArrayFromTuples(Names::Radiosity(), solution.radiosity));
   WriteSceneTables(scene, output->GetFieldData());
 }
 
@@ -160,10 +119,13 @@ RadiositySolution SolutionFromPolyData(vtkPolyData* input) {
   const size_t faces = solution.mesh.triangles.size(), points = solution.mesh.positions.size();
   vtkCellData* cells = input->GetCellData();
   vtkPointData* pointData = input->GetPointData();
-  solution.inputFaceId = ReadNumbers<int64_t>(RequireArray(cells, Names::InputFaceId(), 1, faces));
-  solution.side = ReadNumbers<uint8_t>(RequireArray(cells, Names::Side(), 1, faces));
-  solution.irradiance = ReadSpectra(RequireArray(pointData, Names::Irradiance(), 3, points));
-  solution.radiosity = ReadSpectra(RequireArray(pointData, Names::Radiosity(), 3, points));
+  solution.inputFaceId =
+      NumbersFromArray<int64_t>(RequireArray(cells, Names::InputFaceId(), 1, faces));
+  solution.side = NumbersFromArray<uint8_t>(RequireArray(cells, Names::Side(), 1, faces));
+  solution.irradiance = TuplesFromArray<Spectrum>(
+      RequireArray(pointData, Names::Irradiance(), 3, points), Names::Irradiance());
+  solution.radiosity = TuplesFromArray<Spectrum>(
+      RequireArray(pointData, Names::Radiosity(), 3, points), Names::Radiosity());
   return solution;
 }
 }  // namespace lambert

@@ -12,11 +12,12 @@ import sys
 import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  draws
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkHDRReader, vtkPNGWriter
+from vtkmodules.vtkIOImage import vtkHDRReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
-from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
 import lambert
+from Pictures import look_as_named, write_picture
 
 program, scene, out = sys.argv[1:]
 lit, mapped = os.path.splitext(out)[0] + "-lit.vtp", os.path.splitext(out)[0] + "-map.vtp"
@@ -49,27 +50,12 @@ for half, name in enumerate((lit, mapped)):
     renderer.SetViewport(half / 2, 0, half / 2 + 0.5, 1)
     renderer.AddActor(actor)
     window.AddRenderer(renderer)
+    look_as_named(renderer, scene)
 
-    # The line `# camera` holds the eye, the point looked at and the field of view.
-    with open(scene, encoding="ascii") as text:
-        numbers = next([float(word) for word in line.split()[2:]] for line in text if line.startswith("# camera"))
-    camera = renderer.GetActiveCamera()
-    camera.SetPosition(numbers[0:3])
-    camera.SetFocalPoint(numbers[3:6])
-    camera.SetViewAngle(numbers[6])
-    renderer.ResetCameraClippingRange()
-
-window.Render()
-image = vtkWindowToImageFilter()
-image.SetInput(window)
-image.ReadFrontBufferOff()
-writer = vtkPNGWriter()
-writer.SetInputConnection(image.GetOutputPort())
-writer.SetFileName(out)
-writer.Write()
+image = write_picture(window, out)
 
 # A texel is 1.6 mm, half a pixel: what is left are contact shadows between texels, and the four bytes a texel of the file.
-pixels = vtk_to_numpy(image.GetOutput().GetPointData().GetScalars()).reshape(320, 640, 3).astype(int)
+pixels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(320, 640, 3).astype(int)
 difference = np.abs(pixels[:, :320] - pixels[:, 320:])
 if difference.mean() > 0.5 or np.percentile(difference, 99) > 3:
     sys.exit(f"The light map differs from the points by {difference.mean()} codes in the mean.")

@@ -8,10 +8,10 @@ Needs an X display.
 import sys
 
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  draws
-from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow
 
 import lambert
+from Pictures import look_as_named, write_picture
 
 scene, out, iterations = sys.argv[1:]
 
@@ -41,25 +41,11 @@ renderer = vtkRenderer()
 renderer.SetBackground(1, 1, 1)
 renderer.AddActor(actor)
 
-# The line `# camera` holds the eye, the point looked at and the field of view.
-with open(scene, encoding="ascii") as text:
-    numbers = next([float(word) for word in line.split()[2:]] for line in text if line.startswith("# camera"))
-camera = renderer.GetActiveCamera()
-camera.SetPosition(numbers[0:3])
-camera.SetFocalPoint(numbers[3:6])
-camera.SetViewAngle(numbers[6])
-renderer.ResetCameraClippingRange()
+look_as_named(renderer, scene)
 
 window = vtkRenderWindow()
 window.SetOffScreenRendering(True)
 window.SetMultiSamples(4)
 window.SetSize(512, 384)
 window.AddRenderer(renderer)
-window.Render()
-image = vtkWindowToImageFilter()
-image.SetInput(window)
-image.ReadFrontBufferOff()
-writer = vtkPNGWriter()
-writer.SetInputConnection(image.GetOutputPort())
-writer.SetFileName(out)
-writer.Write()
+write_picture(window, out)

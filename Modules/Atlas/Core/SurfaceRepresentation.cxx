@@ -117,6 +117,35 @@ RadiositySolution OnBrighterSides(const SurfaceSubset& subset) {
   return kept;
 }
 
+template <class T>
+void Append(const std::vector<T>& values, std::vector<T>* to) {
+  to->insert(to->end(), values.begin(), values.end());
+}
+
+/// Faces and points of `other` behind those of `mesh`; what either lacks, both lack.
+void AppendMesh(const TriangleMesh& other, TriangleMesh* mesh) {
+  const int32_t first = int32_t(mesh->positions.size());
+  const bool haveNormals = !mesh->normals.empty() && !other.normals.empty();
+  const bool haveUvs = !mesh->uvs.empty() && !other.uvs.empty();
+  Append(other.positions, &mesh->positions);
+  Append(other.normals, &mesh->normals);
+  Append(other.uvs, &mesh->uvs);
+  if (first > 0 && !other.positions.empty()) {
+    if (!haveNormals) mesh->normals.clear();
+    if (!haveUvs) mesh->uvs.clear();
+  }
+  for (const auto& t : other.triangles) {
+    mesh->triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  Append(other.reflectance, &mesh->reflectance);
+  Append(other.emittance, &mesh->emittance);
+  Append(other.faceFlags, &mesh->faceFlags);
+  Append(other.materialId, &mesh->materialId);
+  Append(other.partId, &mesh->partId);
+  Append(other.sourceCellId, &mesh->sourceCellId);
+  mesh->surfaceId.clear();  // Those of the two are not the same.
+}
+
 }  // namespace
 
 std::vector<SurfaceCost> ChooseRepresentations(const TriangleMesh& mesh,
@@ -186,6 +215,29 @@ RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& 
     cost.mapError = errors[next++];
   }
   return scene;
+}
+
+RepresentedMesh JoinRepresentations(const RepresentedScene& scene) {
+  // What the light map takes.
+  RepresentedMesh joined;
+  joined.mesh = scene.mapped.mesh;
+  joined.lightMapCoords = SplitAtCharts(scene.atlas, &joined.mesh);
+  joined.irradiance.resize(joined.lightMapCoords.size());
+  for (const int32_t chart : ChartOfFace(scene.atlas.set)) {
+    const int32_t page = scene.atlas.pageOfChart[size_t(chart)];
+    for (const int32_t point : joined.mesh.triangles[joined.page.size()]) {
+      const size_t p = size_t(point);
+      joined.irradiance[p] = Lookup(scene.map, page, joined.lightMapCoords[p]);
+    }
+    joined.page.push_back(page);
+  }
+
+  // What its points light.
+  AppendMesh(scene.points.mesh, &joined.mesh);
+  joined.lightMapCoords.resize(joined.mesh.positions.size(), Vec2f(-1, -1));
+  joined.page.resize(joined.mesh.triangles.size(), 0);
+  Append(scene.points.irradiance, &joined.irradiance);
+  return joined;
 }
 
 }  // namespace lambert

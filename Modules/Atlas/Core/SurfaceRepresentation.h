@@ -58,4 +58,14 @@ RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& 
                                    const AtlasOptions& atlasOptions,
                                    const ProgressCallback& progress = {});
 
+/// All surfaces in one mesh, whatever shows their light: those of the light map first, split at
+/// their charts, with the light that lookups bring to their points.
+struct RepresentedMesh {
+  TriangleMesh mesh;
+  std::vector<Vec2f> lightMapCoords;  ///< by point; (-1, -1): lit by its points
+  std::vector<Spectrum> irradiance;   ///< by point, W/m2
+  std::vector<int32_t> page;          ///< by face, of the light map; 0 where points light it
+};
+RepresentedMesh JoinRepresentations(const RepresentedScene& scene);
+
 }  // namespace lambert

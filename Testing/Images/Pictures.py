@@ -1,0 +1,27 @@
+"""What the pictures of the image tests share: the camera that a scene names, and the file that a window becomes."""
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
+
+
+def look_as_named(renderer, scene):
+    """Takes the eye, the point looked at and the field of view of the line `# camera` of an OBJ file."""
+    with open(scene, encoding="ascii") as text:
+        numbers = next([float(word) for word in line.split()[2:]] for line in text if line.startswith("# camera"))
+    camera = renderer.GetActiveCamera()
+    camera.SetPosition(numbers[0:3])
+    camera.SetFocalPoint(numbers[3:6])
+    camera.SetViewAngle(numbers[6])
+    renderer.ResetCameraClippingRange()
+
+
+def write_picture(window, name):
+    """Draws a window into a PNG file; returns the picture as vtkImageData."""
+    window.Render()
+    image = vtkWindowToImageFilter()
+    image.SetInput(window)
+    image.ReadFrontBufferOff()
+    writer = vtkPNGWriter()
+    writer.SetInputConnection(image.GetOutputPort())
+    writer.SetFileName(name)
+    writer.Write()
+    return image.GetOutput()
