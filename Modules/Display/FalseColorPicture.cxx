@@ -23,8 +23,6 @@
 
 namespace lambert {
 namespace {
-/// Of the width of the picture that the scale takes.
-constexpr double kStrip = 0.15;
 /// Pixels of a letter's height and of a line's width.
 constexpr int kLetter = 13;
 constexpr float kLine = 1;
@@ -158,7 +156,7 @@ vtkSmartPointer<vtkImageData> DrawFalseColors(vtkPolyData* mesh, vtkCamera* came
   const auto shown =
       FacesBeforeTheEye(mesh, {float(eye[0]), float(eye[1]), float(eye[2])}, options.unit);
   vtkNew<vtkRenderer> light;
-  light->SetViewport(0, 0, 1 - kStrip, 1);
+  light->SetViewport(0, 0, 1 - kScaleStrip, 1);
   light->AddActor(Surfaces(shown, colors));
   if (options.isolines) {
     light->AddActor(Isolines(shown, options));
@@ -168,7 +166,7 @@ vtkSmartPointer<vtkImageData> DrawFalseColors(vtkPolyData* mesh, vtkCamera* came
 
   // The scale, in a strip of its own.
   vtkNew<vtkRenderer> strip;
-  strip->SetViewport(1 - kStrip, 0, 1, 1);
+  strip->SetViewport(1 - kScaleStrip, 0, 1, 1);
   strip->AddActor2D(Scale(options, colors));
   const auto window = OffScreenWindow(width, height);
   window->AddRenderer(light);

@@ -10,6 +10,9 @@ class vtkImageData;
 class vtkPolyData;
 
 namespace lambert {
+/// Of the width of the picture that the scale takes.
+constexpr double kScaleStrip = 0.15;
+
 struct FalseColorOptions {
   IlluminanceUnit unit = IlluminanceUnit::Lux;
   IlluminanceScale scale;

@@ -134,9 +134,10 @@ void vtkRadiosityImageWriter::PlaceCamera(vtkPolyData* scene, vtkCamera* camera)
     const lambert::UpAxis up = this->UpAxis == UP_GUESSED
                                    ? lambert::GuessUpAxis(mesh)
                                    : static_cast<lambert::UpAxis>(this->UpAxis);
+    const double shown = this->FalseColors == NO_FALSE_COLORS ? 1 : 1 - lambert::kScaleStrip;
     const lambert::Camera chosen =
         lambert::DefaultCamera(mesh, ReadLight(scene, vtkRadiosityArrays::Radiosity()),
-                               static_cast<double>(this->Size[0]) / this->Size[1], up);
+                               shown * this->Size[0] / this->Size[1], up);
     camera->SetPosition(chosen.position.x, chosen.position.y, chosen.position.z);
     camera->SetFocalPoint(chosen.focalPoint.x, chosen.focalPoint.y, chosen.focalPoint.z);
     camera->SetViewUp(chosen.viewUp.x, chosen.viewUp.y, chosen.viewUp.z);
