@@ -1,7 +1,10 @@
 #include "LightArguments.h"
 
+#include <filesystem>
+
 #include "ArgumentChecks.h"
 #include "Scene/Core/Compass.h"
+#include "Scene/Core/EnvironmentImage.h"
 
 namespace lambert {
 namespace {
@@ -33,6 +36,31 @@ void LightArguments::AddTo(CLI::App* command) {
   command->add_option("--sky", sky, "Radiance R G B of a constant sky, W/(m2 sr)")
       ->expected(3)
       ->check(NotNegative());
+  CLI::Option* gradientOption =
+      command
+          ->add_option("--sky-gradient", skyGradient,
+                       "Radiances R G B R G B of a sky in the zenith and at the horizon, W/(m2 sr)")
+          ->expected(6)
+          ->check(NotNegative());
+  command->add_option("--ground", ground, "Radiance R G B below the horizon of --sky-gradient")
+      ->expected(3)
+      ->needs(gradientOption)
+      ->check(NotNegative());
+
+  // Surroundings from an image.
+  CLI::Option* environmentOption = command->add_option(
+      "--environment", environment, "Equirectangular image of the surroundings, Radiance .hdr");
+  command
+      ->add_option("--environment-scale", environmentScale, "Radiance of a texel of 1, W/(m2 sr)")
+      ->needs(environmentOption)
+      ->check(NotNegative())
+      ->capture_default_str();
+  command
+      ->add_option("--environment-rotation", environmentRotation,
+                   "Degrees by which the image is turned, clockwise as seen from above")
+      ->needs(environmentOption)
+      ->check(Within(-360, 360, "from -360 to 360"))
+      ->capture_default_str();
 }
 
 void LightArguments::Check() const {
@@ -56,6 +84,22 @@ std::vector<Light> LightArguments::Lights(const Vec3f& up) const {
     lights.push_back(light);
   }
   if (!sky.empty()) lights.push_back(NamedLight(LightType::Sky, "sky", ToSpectrum(sky)));
+  if (!skyGradient.empty()) {
+    const std::vector<float>& g = skyGradient;
+    Light light = NamedLight(LightType::GradientSky, "sky gradient", ToSpectrum(g));
+    light.direction = -up;
+    light.horizon = {g[3], g[4], g[5]};
+    if (!ground.empty()) light.ground = ToSpectrum(ground);
+    lights.push_back(light);
+  }
+  if (!environment.empty()) {
+    Light light = NamedLight(LightType::Environment, "environment", Spectrum(environmentScale));
+    light.direction = -up;
+    light.rotation = float(Radians(environmentRotation));
+    light.imageFile = std::filesystem::absolute(environment).string();
+    light.image = ReadEnvironmentImage(environment);
+    lights.push_back(light);
+  }
   return lights;
 }
 

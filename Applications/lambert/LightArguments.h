@@ -17,10 +17,15 @@ struct LightArguments {
   float sunDiameter = 0.53f;  ///< degrees
   std::vector<float> sky;     ///< R G B, W/(m2 sr)
 
+  std::vector<float> skyGradient;  ///< R G B in the zenith and at the horizon, W/(m2 sr)
+  std::vector<float> ground;       ///< R G B below the horizon, W/(m2 sr)
+  std::string environment;         ///< file
+  float environmentScale = 1, environmentRotation = 0;  ///< degrees
+
   void AddTo(CLI::App* command);
   /// Throws CLI::ValidationError where numbers are none that a sun may have.
   void Check() const;
-  /// `up`: unit, of the scene.
+  /// `up`: unit, of the scene. Throws Error for an image that cannot be read.
   std::vector<Light> Lights(const Vec3f& up) const;
 };
 

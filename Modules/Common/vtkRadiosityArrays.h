@@ -55,6 +55,10 @@ class LAMBERTCOMMON_EXPORT vtkRadiosityArrays : public vtkObject {
   static const char* LightPosition() { return "Light.Position"; }    ///< 3 float, m
   static const char* LightDirection() { return "Light.Direction"; }  ///< 3 float, unit
   static const char* LightIntensity() { return "Light.Intensity"; }  ///< W/sr, W/m2, W/(m2 sr)
+  static const char* LightHorizon() { return "Light.Horizon"; }      ///< 3 float, W/(m2 sr)
+  static const char* LightGround() { return "Light.Ground"; }        ///< 3 float, W/(m2 sr)
+  static const char* LightImage() { return "Light.Image"; }          ///< string, a file
+  static const char* LightRotation() { return "Light.Rotation"; }    ///< float, radians
   static const char* LightSize() { return "Light.Size"; }  ///< radius, m; diameter, radians
   static const char* LightConeAngles() { return "Light.ConeAngles"; }    ///< 2 float, radians
   static const char* CameraPosition() { return "Camera.Position"; }      ///< 3 double, m

@@ -57,7 +57,7 @@ SceneSummary SummarizeScene(const Scene& scene) {
     summary.pointLights += light.type == LightType::Point;
     summary.spotLights += light.type == LightType::Spot;
     summary.directionalLights += light.type == LightType::Directional;
-    summary.skies += light.type == LightType::Sky;
+    summary.skies += !light.IsPlaced() && light.type != LightType::Directional;
     if (light.IsPlaced()) {
       summary.emittedByLights += LampPower(light);
     }

@@ -1,6 +1,7 @@
 #include "vtkSceneTables.h"
 
 #include "Common/Core/Error.h"
+#include "Scene/Core/EnvironmentImage.h"
 #include "Scene/Core/SceneLimits.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -171,7 +172,7 @@ void ReadLights(vtkFieldData* fields, std::vector<Light>* lights) {
   table.Strings(Names::LightName(),
                 [&](size_t row, const std::string& name) { l[row].name = name; });
   table.Numbers(Names::LightType(), 1, [&](size_t row, int, double value) {
-    if (!(value >= 0 && value <= static_cast<double>(LightType::Sky))) {
+    if (!(value >= 0 && value <= static_cast<double>(LightType::Environment))) {
       throw Error("The light " + std::to_string(row) + " is of no known type.");
     }
     l[row].type = static_cast<LightType>(static_cast<int>(value));
@@ -185,6 +186,17 @@ void ReadLights(vtkFieldData* fields, std::vector<Light>* lights) {
   table.Numbers(Names::LightIntensity(), 3, [&](size_t row, int c, double value) {
     l[row].intensity[c] = static_cast<float>(value);
   });
+  table.Numbers(Names::LightHorizon(), 3, [&](size_t row, int c, double value) {
+    l[row].horizon[c] = static_cast<float>(value);
+  });
+  table.Numbers(Names::LightGround(), 3, [&](size_t row, int c, double value) {
+    l[row].ground[c] = static_cast<float>(value);
+  });
+  table.Strings(Names::LightImage(),
+                [&](size_t row, const std::string& file) { l[row].imageFile = file; });
+  table.Numbers(Names::LightRotation(), 1, [&](size_t row, int, double value) {
+    l[row].rotation = static_cast<float>(value);
+  });
   table.Numbers(Names::LightSize(), 1,
                 [&](size_t row, int, double value) { l[row].size = static_cast<float>(value); });
   table.Numbers(Names::LightConeAngles(), 2, [&](size_t row, int c, double value) {
@@ -193,6 +205,9 @@ void ReadLights(vtkFieldData* fields, std::vector<Light>* lights) {
   RequireSolvableLights(l);
   for (Light& light : l) {
     light.direction = Normalize(light.direction);
+    if (light.type == LightType::Environment) {
+      light.image = ReadEnvironmentImage(light.imageFile);
+    }
   }
 }
 
@@ -207,6 +222,13 @@ void WriteLights(const std::vector<Light>& l, vtkFieldData* fields) {
                                [&](size_t row, int c) { return l[row].direction[c]; });
   table.Numbers<vtkFloatArray>(Names::LightIntensity(), 3,
                                [&](size_t row, int c) { return l[row].intensity[c]; });
+  table.Numbers<vtkFloatArray>(Names::LightHorizon(), 3,
+                               [&](size_t row, int c) { return l[row].horizon[c]; });
+  table.Numbers<vtkFloatArray>(Names::LightGround(), 3,
+                               [&](size_t row, int c) { return l[row].ground[c]; });
+  table.Strings(Names::LightImage(), [&](size_t row) { return l[row].imageFile; });
+  table.Numbers<vtkFloatArray>(Names::LightRotation(), 1,
+                               [&](size_t row, int) { return l[row].rotation; });
   table.Numbers<vtkFloatArray>(Names::LightSize(), 1, [&](size_t row, int) { return l[row].size; });
   table.Numbers<vtkFloatArray>(Names::LightConeAngles(), 2, [&](size_t row, int c) {
     return c == 0 ? l[row].innerConeAngle : l[row].outerConeAngle;

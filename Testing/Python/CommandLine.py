@@ -5,6 +5,8 @@ import shutil
 import subprocess
 import sys
 
+import numpy as np
+
 LAMBERT = os.path.join(os.environ["LAMBERT_BIN_DIR"], "lambert")
 DATA = os.environ["LAMBERT_DATA_DIR"]
 CORNELL_BOX = os.path.join(DATA, "CornellBox", "CornellBox.obj")
@@ -45,3 +47,15 @@ def fails(exit_code, *arguments, says=(), environment=None):
         assert len(lines) == 1 and lines[0].startswith("lambert: ") and lines[0].endswith("."), lines
     for word in says:
         assert word in done.stderr, (word, done.stderr)
+
+
+def write_hdr(name, texels):
+    """A Radiance HDR file of rows x columns x 3 radiances, the uppermost row first."""
+    texels = np.asarray(texels, float)
+    largest = texels.max(axis=2)
+    exponent = np.where(largest > 1e-30, np.floor(np.log2(np.maximum(largest, 1e-30))) + 1, -128)
+    mantissa = np.floor(texels * 2.0 ** (8 - exponent)[..., None])
+    with open(name, "wb") as file:
+        file.write(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % largest.shape)
+        file.write(np.dstack([mantissa, exponent + 128]).astype(np.uint8).tobytes())
+    return name

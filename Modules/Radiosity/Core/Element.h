@@ -49,7 +49,7 @@ struct Element {
 
   // Material, area-weighted means.
   Spectrum reflectance;
-  Spectrum emittance;  ///< W/m2; of lights their strength
+  Spectrum emittance;  ///< W/m2; of lights their strength, or one band of it
 
   bool IsLeaf() const { return child < 0; }
   bool IsPolygon() const { return polygonCount > 0; }

@@ -134,13 +134,23 @@ ElementHierarchy::ElementHierarchy(const Scene& scene, const ClusterTree& tree,
 
   // Lights without geometry stand beside the hierarchy.
   int32_t item = 0;
-  for (const auto& source : lightSources_) {
-    Element light;
-    light.kind = ElementKind::Light;
-    light.item = item++;
-    light.canSplit = false;
-    light.emittance = source->Strength();
+  for (const auto& source : lightSources_) AddLight(*source, item++);
+}
+
+void ElementHierarchy::AddLight(const LightSource& source, int32_t item) {
+  Element light;
+  light.kind = ElementKind::Light;
+  light.item = item;
+  light.canSplit = false;
+  light.emittance = source.Strength();
+  if (source.IsOneColor()) {
     lights_.push_back(Append(light));
+    return;
+  }
+  for (int band = 0; band < 3; ++band) {
+    light.emittance = Spectrum();
+    light.emittance[band] = source.Strength()[band];
+    if (!light.emittance.IsBlack()) lights_.push_back(Append(light));
   }
 }
 

@@ -30,7 +30,8 @@ class ElementHierarchy {
   int32_t EmitterRoot() const {
     return emitterRoot_;
   }  ///< over emitters that do not reflect; -1 for none
-  const std::vector<int32_t>& Lights() const { return lights_; }  ///< one element a light
+  /// One element a light, or one a band where its colour depends on the direction.
+  const std::vector<int32_t>& Lights() const { return lights_; }
   const LightSource& LightOf(const Element& element) const {
     return **(lightSources_.begin() + element.item);
   }
@@ -69,6 +70,7 @@ class ElementHierarchy {
 
  private:
   int32_t Append(const Element& element);
+  void AddLight(const LightSource& source, int32_t item);
   int32_t BuildVolumes(const std::vector<int32_t>& surfaces);
   void LinkVolume(int32_t element, const std::vector<VolumeNode>& volumes,
                   const std::vector<int32_t>& surfaces);

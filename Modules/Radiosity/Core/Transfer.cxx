@@ -166,19 +166,36 @@ float VisibleFraction(const ElementHierarchy& hierarchy, const RayScene& rayScen
 
 Vec3f SkyTransfer(const LightSource& sky, const RayScene& rayScene, const Element& source,
                   const Vec3f& x, const Vec3f& horizon, float* visible, int64_t* rays) {
+  // What fills the sky.
   Vec3f u, v, sum;
   CoordinateSystem(horizon, &u, &v);
   float open = 0, all = 0;
   for (const Vec3f& d : SkyDirections()) {
     const Vec3f direction = u * d.x + v * d.y + horizon * d.z;
-    all += d.z;
+    const float radiance = PerUnit(sky.Radiance(direction), source.emittance);
+    all += d.z * radiance;
     if (rayScene.OccludedDirection(x, direction)) continue;
-    open += d.z;
-    sum += direction * PerUnit(sky.Radiance(direction), source.emittance);
+    open += d.z * radiance;
+    sum += direction * radiance;
   }
   *rays += kSkyDirections;
-  *visible = open / all;
-  return sum * float(2 * kPi / kSkyDirections);
+  constexpr float kPerDirection = float(2 * kPi / kSkyDirections);
+  sum *= kPerDirection;
+
+  // Its small bright parts.
+  for (int k = 0; k < sky.Samples(); ++k) {
+    const LightSample sample = SampleOf(sky, k, sky.Samples(), x);
+    const float cosine = Dot(sample.direction, horizon);
+    if (cosine <= 0) continue;
+    const float irradiance = PerUnit(sample.irradiance, source.emittance) / float(sky.Samples());
+    ++*rays;
+    all += cosine * irradiance / kPerDirection;
+    if (rayScene.Occluded(x, sample.direction, sample.distance)) continue;
+    open += cosine * irradiance / kPerDirection;
+    sum += sample.direction * irradiance;
+  }
+  *visible = all > 0 ? open / all : 1;
+  return sum;
 }
 
 namespace {

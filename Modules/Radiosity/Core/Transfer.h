@@ -24,8 +24,8 @@ float VisibleFraction(const ElementHierarchy& hierarchy, const RayScene& rayScen
                       const Element& source, const Vec3f& x, const Vec3f& horizon, int64_t* rays);
 
 /// Irradiance vector at `x` per unit strength of the element `source` of a light that fills the
-/// sky, by stratified rays over the hemisphere of `horizon`; `visible` is the cosine-weighted part
-/// of the hemisphere that is open.
+/// sky, by stratified rays over the hemisphere of `horizon`, and rays to its samples; `visible` is
+/// the part of what it gives to a facet with that normal that nothing is in the way of.
 Vec3f SkyTransfer(const LightSource& sky, const RayScene& rayScene, const Element& source,
                   const Vec3f& x, const Vec3f& horizon, float* visible, int64_t* rays);
 

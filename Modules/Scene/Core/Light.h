@@ -1,6 +1,7 @@
 // Light sources without geometry: rows of the light table.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "Common/Core/Spectrum.h"
@@ -8,23 +9,41 @@
 
 namespace lambert {
 
-enum class LightType { Point = 0, Spot = 1, Directional = 2, Sky = 3 };
+class EnvironmentImage;
+
+enum class LightType {
+  Point = 0,
+  Spot = 1,
+  Directional = 2,
+  Sky = 3,
+  GradientSky = 4,
+  Environment = 5
+};
 
 struct Light {
   LightType type = LightType::Point;
   std::string name;
-  Vec3f position;             ///< world space, m (point, spot)
-  Vec3f direction{0, 0, -1};  ///< unit, the way the light travels (spot, directional)
+  Vec3f position;  ///< world space, m (point, spot)
+  /// The way the light travels (spot, directional), unit; of skies the way down, from the zenith.
+  Vec3f direction{0, 0, -1};
   /// Point and spot: intensity W/sr. Directional: irradiance W/m2 on a facet that faces it. Sky:
-  /// radiance W/(m2 sr).
+  /// radiance W/(m2 sr); of a gradient in the zenith, of an environment that of a texel of 1.
   Spectrum intensity;
+  Spectrum horizon, ground;  ///< gradient sky: radiance at the horizon and below it, W/(m2 sr)
+  std::string imageFile;     ///< environment: a Radiance HDR file
+  std::shared_ptr<const EnvironmentImage> image;  ///< environment: what that file holds
+  float rotation = 0;  ///< environment: its turn, radians, clockwise as seen from above
   /// Point and spot: radius of the ball that shines, m. Directional: angular diameter, radians,
   /// [0, pi).
   float size = 0;
   float innerConeAngle = 0;               ///< spot: half-angle of full intensity, radians
   float outerConeAngle = float(kPi) / 4;  ///< spot: half-angle where it ends, radians
 
-  bool IsBlack() const { return intensity.IsBlack(); }
+  /// True for what gives no light.
+  bool IsBlack() const {
+    return intensity.IsBlack() &&
+           (type != LightType::GradientSky || (horizon.IsBlack() && ground.IsBlack()));
+  }
   /// True for what stands at a place (point, spot); the others are infinitely far.
   bool IsPlaced() const { return type == LightType::Point || type == LightType::Spot; }
   /// Fall-off of a spot in the unit direction `d` away from it, in [0,1] (glTF

@@ -16,6 +16,10 @@ std::unique_ptr<LightSource> MakeLightSource(const Light& light) {
       return MakeSun(light);
     case LightType::Sky:
       return MakeSky(light);
+    case LightType::GradientSky:
+      return MakeGradientSky(light);
+    case LightType::Environment:
+      return MakeEnvironment(light);
   }
   throw Error("The light \"" + light.name + "\" is of no known type.");
 }

@@ -20,15 +20,18 @@ struct LightSample {
                         ///< mean over the samples
 };
 
-/// A light gives by samples, each a direct ray's, or to rays that meet nothing.
+/// A light gives by samples, each a direct ray's, or to rays that meet nothing, or both: no part of
+/// it by both ways.
 class LightSource {
  public:
   virtual ~LightSource() = default;
 
   /// True for what is seen in the same directions from everywhere.
   virtual bool IsFar() const { return true; }
-  /// What a transfer is relative to: the intensity of a row of the table.
+  /// What Transfer is relative to: the intensity of a row of the table, or the mean radiance.
   virtual Spectrum Strength() const = 0;
+  /// False where the colour depends on the direction: then each band is an element of its own.
+  virtual bool IsOneColor() const { return true; }
 
   /// Rays that show well what of it is in sight; 1 where all samples are alike, 0 where there are
   /// none.
@@ -51,6 +54,7 @@ class LightSource {
   virtual Spectrum Power(float area) const = 0;
 };
 
+/// Throws Error for an environment without its image.
 std::unique_ptr<LightSource> MakeLightSource(const Light& light);
 
 /// A place that lights shine on: irradiance is for `normal`, from directions in the hemispheres of

@@ -24,8 +24,8 @@ void RequireSolvableSize(const TriangleMesh& mesh) {
 void RequireSolvableLights(const std::vector<Light>& lights) {
   for (const Light& light : lights) {
     const std::string name = "The light \"" + light.name + "\"";
-    const Spectrum& intensity = light.intensity;
-    if (!intensity.IsFinite() || std::min({intensity.r, intensity.g, intensity.b}) < 0) {
+    for (const Spectrum& given : {light.intensity, light.horizon, light.ground}) {
+      if (given.IsFinite() && std::min({given.r, given.g, given.b}) >= 0) continue;
       throw Error(name +
                   " has an intensity that is negative or not a finite number; repair the input.");
     }
@@ -39,9 +39,12 @@ void RequireSolvableLights(const std::vector<Light>& lights) {
       throw Error(name + " has a size that is negative, not a number or too large; a directional " +
                   "light is less than 180 degrees across.");
     }
-    const bool isAimed = light.type == LightType::Spot || light.type == LightType::Directional;
+    const bool isAimed = light.type != LightType::Point && light.type != LightType::Sky;
     if (isAimed && !(IsFinite(light.direction) && LengthSquared(Vec3d(light.direction)) > 0)) {
       throw Error(name + " shines in no direction; repair the input.");
+    }
+    if (!std::isfinite(light.rotation)) {
+      throw Error(name + " is turned by what is not a finite number; repair the input.");
     }
   }
 }

@@ -177,19 +177,12 @@ TEST(CachedRadiosity, LightsWithoutGeometry) {
       for (size_t i = 0; i < solution.irradiance.size(); ++i) {
         const Vec3f offset = light.position - solution.mesh.positions[i];
         const float distance = Length(offset);
-        float expected = 0;
-        switch (light.type) {
-          case LightType::Point:
-          case LightType::Spot:
-            expected = light.intensity.g * light.ConeFactor(-offset / distance) * 2 /
-                       (distance * distance * distance);
-            break;
-          case LightType::Directional:
-            expected = 3 * std::sqrt(0.5f);
-            break;
-          case LightType::Sky:
-            expected = float(kPi);
-            break;
+        float expected = float(kPi);
+        if (light.IsPlaced()) {
+          expected = light.intensity.g * light.ConeFactor(-offset / distance) * 2 /
+                     (distance * distance * distance);
+        } else if (light.type == LightType::Directional) {
+          expected = 3 * std::sqrt(0.5f);
         }
         // Points are gathered a thousandth of an element beside their vertex: the spot falls off
         // by 4 / 0.1 rad.
@@ -199,6 +192,25 @@ TEST(CachedRadiosity, LightsWithoutGeometry) {
       EXPECT_NEAR((statistics.absorbed.g + statistics.escaped.g) / statistics.emitted.g, 1, 0.01);
     }
   }
+}
+
+// pi H + 2 pi (Z - H) / 3 of a sky with a gradient, over a black ground: one side is lit.
+TEST(CachedRadiosity, AGradientSky) {
+  Scene scene;
+  testing::AddQuad(&scene.mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Spectrum(0.5f));
+  testing::CompleteTables(&scene);
+  Light sky;
+  sky.type = LightType::GradientSky;
+  sky.intensity = Spectrum(4.f);
+  sky.horizon = Spectrum(1.f);
+  scene.lights = {sky};
+  SolverStatistics statistics;
+  const RadiositySolution solution = Solve(scene, 0.2, 64, 16, &statistics);
+  ASSERT_GT(solution.mesh.FaceCount(), 0);
+  for (const uint8_t side : solution.side) EXPECT_EQ(side, kFront);
+  // 64 stratified rays.
+  for (const Spectrum& e : solution.irradiance) EXPECT_NEAR(e.g, 3 * kPi, 0.01 * 3 * kPi);
+  EXPECT_NEAR((statistics.absorbed.g + statistics.escaped.g) / statistics.emitted.g, 1, 0.01);
 }
 
 // Nothing depends on how the work was shared out.

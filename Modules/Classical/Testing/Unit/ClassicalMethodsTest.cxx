@@ -250,6 +250,25 @@ TEST_P(ClassicalMethods, OpenSky) {
   ExpectBalance(solved.statistics, 1e-3);
 }
 
+// pi H + 2 pi (Z - H) / 3 on the upper side; the ground below is black.
+TEST_P(ClassicalMethods, OpenGradientSky) {
+  Scene scene;
+  testing::AddQuad(&scene.mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Spectrum(0.5f));
+  testing::CompleteTables(&scene);
+  Light sky;
+  sky.type = LightType::GradientSky;
+  sky.intensity = Spectrum(4.f);
+  sky.horizon = Spectrum(1.f);
+  scene.lights = {sky};
+  const Solved solved = Solve(scene, 0.3);
+  for (size_t p = 0; p < solved.solution.irradiance.size(); ++p) {
+    if (solved.solution.mesh.normals[p].z < 0) continue;
+    // 256 stratified rays.
+    EXPECT_NEAR(solved.solution.irradiance[p].g, 3 * kPi, 0.01 * 3 * kPi);
+  }
+  ExpectBalance(solved.statistics, 1e-3);
+}
+
 // The shadow of a screen in the light of a sun 20 degrees across, on a floor that lies far within
 // the screen's other edges: the penumbra, and light and dark beyond it.
 TEST_P(ClassicalMethods, ThePenumbraOfASun) {

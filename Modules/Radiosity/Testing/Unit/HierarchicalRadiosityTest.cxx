@@ -218,6 +218,31 @@ TEST(HierarchicalRadiosity, AConstantSkyOverAnOpenFloor) {
   for (const Spectrum& e : solved.solution.irradiance) EXPECT_NEAR(e.g, 2 * kPi, 0.001 * 2 * kPi);
 }
 
+TEST(HierarchicalRadiosity, AGradientSkyOverAnOpenFloor) {
+  Scene scene;
+  AddQuad(&scene.mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Spectrum(0.5f));
+  Light sky;
+  sky.type = LightType::GradientSky;
+  sky.intensity = {4, 1, 0};
+  sky.horizon = {1, 1, 3};
+  scene.lights.push_back(sky);
+  testing::CompleteTables(&scene);
+  for (const bool finalGather : {true, false}) {
+    HierarchicalRadiosityOptions options;
+    options.finalGather = finalGather;
+    const Solved solved = Solve(scene, options);
+    for (size_t p = 0; p < solved.solution.irradiance.size(); ++p) {
+      if (solved.solution.mesh.normals[p].z < 0) continue;  // The ground is black.
+      for (int band = 0; band < 3; ++band) {
+        const double h = double(sky.horizon[band]), rise = double(sky.intensity[band]) - h;
+        const double expected = kPi * h + 2 * kPi / 3 * rise;
+        // The error that is asked for where nothing else is.
+        EXPECT_NEAR(solved.solution.irradiance[p][band], expected, 0.05 * expected);
+      }
+    }
+  }
+}
+
 TEST(HierarchicalRadiosity, SaysWhyItStopped) {
   HierarchicalRadiosityOptions options;
   options.iterations = 2;

@@ -164,6 +164,19 @@ TEST(PathTracedIrradiance, LightsReachByReflection) {
   ExpectIrradiance(At(scene, {0, 0, 1}, {0, 0, -1}, 4096), 0.4 * 3);
 }
 
+TEST(PathTracedIrradiance, GradientSkyOverAPlane) {
+  // pi H + 2 pi (Z - H) / 3; upright, pi H / 2 + 2 (Z - H) / 3.
+  Scene scene;
+  AddQuad(&scene.mesh, {5, 5, -1}, {1, 0, 0}, {0, 1, 0}, Spectrum(0.f));
+  Light sky;
+  sky.type = LightType::GradientSky;
+  sky.intensity = Spectrum(4.f);
+  sky.horizon = Spectrum(1.f);
+  scene.lights = {sky};
+  ExpectIrradiance(At(scene, {}, {0, 0, 1}), 3 * kPi);
+  ExpectIrradiance(At(scene, {}, {0, 1, 0}), kPi / 2 + 2);
+}
+
 TEST(PathTracedIrradiance, PenumbraOfASun) {
   const float size = 0.04f;
   const Scene scene = ScreenUnderSun(size);

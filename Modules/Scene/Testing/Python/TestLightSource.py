@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLPolyDataWriter
 
@@ -63,6 +63,25 @@ for source in (mesh, reader.GetOutput()):
     for method in (lambert.vtkHierarchicalRadiosity, lambert.vtkMatrixRadiosity):
         assert np.allclose(irradiance(source, method), 0.8 * np.array([1, 2, 3]) + 1, rtol=1e-3), method
 
+# A gradient sky, pi H + 2 pi (Z - H) / 3, and an image that is even over the upper half and black below.
+image = os.path.join(folder, "even.hdr")
+with open(image, "wb") as file:
+    file.write(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 1\n" + bytes((128, 128, 128, 130, 0, 0, 0, 0)))
+skies = floor()
+add(skies, names.LightType(), [4, 5])
+add(skies, names.LightIntensity(), [[4, 1, 0], [0.5, 0.5, 0.5]])
+add(skies, names.LightHorizon(), [[1, 1, 3], [0, 0, 0]])
+add(skies, names.LightGround(), [[9, 9, 9], [0, 0, 0]])
+add(skies, names.LightRotation(), [0, 1])
+files = vtkStringArray()
+files.SetName(names.LightImage())
+for name in ("", image):
+    files.InsertNextValue(name)
+skies.GetFieldData().AddArray(files)
+expected = math.pi * np.array([1, 1, 3]) + 2 * math.pi / 3 * np.array([3, 0, -3]) + math.pi * 0.5 * 2
+for method in (lambert.vtkHierarchicalRadiosity, lambert.vtkPathTracedIrradiance):
+    assert np.allclose(irradiance(skies, method), expected, rtol=0.05), method  # The error that is asked for by default.
+
 # The scene reader hands them on.
 scene = lambert.vtkRadiositySceneReader()
 scene.AddFileName(path)
@@ -84,3 +103,5 @@ def complaint(mesh):
 for size in (-1, math.nan, 4):
     add(mesh, names.LightSize(), [size, 0])
     assert complaint(mesh), size
+files.SetValue(1, os.path.join(folder, "missing.hdr"))
+assert complaint(skies)

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+
+#include "Scene/Core/EnvironmentImage.h"
 
 namespace lambert {
 namespace {
@@ -93,6 +96,111 @@ TEST(LightSource, ASkyGivesPiL) {
   const Spectrum e = OpenIrradiance({sky}, {}, Normalize(Vec3f(1, 2, 3)));
   // Sums of 16384 floats.
   for (int band = 0; band < 3; ++band) EXPECT_NEAR(e[band], float(kPi) * float(band + 1), 1e-2f);
+}
+
+Light MakeGradient(const Spectrum& zenith, const Spectrum& horizon, const Spectrum& ground) {
+  Light light = MakeLight(LightType::GradientSky, zenith);
+  light.horizon = horizon;
+  light.ground = ground;
+  return light;
+}
+
+// L = H + (Z - H) z over the horizon, z the sine of the elevation: a facet that looks up receives
+// pi H + 2 pi (Z - H) / 3; one that stands upright sees half of the sky, and gets
+// pi H / 2 + 2 (Z - H) / 3 of it and pi G / 2 of the ground; one that looks down pi G.
+TEST(LightSource, AGradientSky) {
+  const Light sky = MakeGradient({5, 1, 0}, {2, 2, 1}, {0.5f, 0.25f, 2});
+  const Spectrum up = OpenIrradiance({sky}, {}, {0, 0, 1});
+  const Spectrum level = OpenIrradiance({sky}, {}, {0, 1, 0});
+  const Spectrum down = OpenIrradiance({sky}, {}, {0, 0, -1});
+  for (int band = 0; band < 3; ++band) {
+    const double h = double(sky.horizon[band]), rise = double(sky.intensity[band]) - h;
+    const double g = double(sky.ground[band]);
+    EXPECT_NEAR(up[band], kPi * h + 2 * kPi / 3 * rise, 1e-2);
+    EXPECT_NEAR(level[band], kPi / 2 * (h + g) + 2 * rise / 3, 1e-2);
+    EXPECT_NEAR(down[band], kPi * g, 1e-2);
+  }
+}
+
+Light MakeSurroundings(int width, int height, std::vector<Spectrum> texels) {
+  Light light = MakeLight(LightType::Environment, Spectrum(1.f));
+  light.image = std::make_shared<const EnvironmentImage>(width, height, std::move(texels));
+  return light;
+}
+
+TEST(LightSource, AnEvenEnvironmentIsASky) {
+  const LightSources sources({MakeSurroundings(8, 4, std::vector<Spectrum>(32, {1, 2, 3}))});
+  EXPECT_FALSE(sources.HaveSamples()) << "no part of it is bright";
+  EXPECT_TRUE(sources.FillSky());
+  Random random(1);
+  for (int i = 0; i < 100; ++i) {
+    const float z = 2 * random.Uniform() - 1, s = std::sqrt(1 - z * z), a = 7 * random.Uniform();
+    const Spectrum radiance = sources.Radiance({s * std::cos(a), s * std::sin(a), z});
+    EXPECT_EQ(radiance, Spectrum(1, 2, 3));
+  }
+}
+
+// Of a texel that spans phi and the sines s0 to s1 a facet that looks up receives
+// L phi (s1^2 - s0^2) / 2. Bright texels are sampled, the others found by rays; together they are
+// the whole, whatever the limit between them.
+TEST(LightSource, AnEnvironmentIsTheSumOfItsTexels) {
+  constexpr int kWidth = 16, kHeight = 8;
+  std::vector<Spectrum> texels;
+  Random random(2);
+  for (int i = 0; i < kWidth * kHeight; ++i) {
+    const float x = random.Uniform();
+    texels.push_back(Spectrum(x, 0.5f, 1 - x) * (i % 7 == 3 ? 60.f : 1.f));
+  }
+  double expected[3] = {};
+  for (int i = 0; i < kWidth * kHeight / 2; ++i) {
+    const int row = i / kWidth;
+    const double s1 = std::cos(kPi * row / kHeight), s0 = std::cos(kPi * (row + 1) / kHeight);
+    for (int band = 0; band < 3; ++band) {
+      expected[band] +=
+          double(texels[size_t(i)][band]) * 2 * kPi / kWidth * (s1 * s1 - s0 * s0) / 2;
+    }
+  }
+  const Light light = MakeSurroundings(kWidth, kHeight, texels);
+  EXPECT_TRUE(LightSources({light}).HaveSamples());
+  Spectrum sum;
+  constexpr int kRepeats = 512;
+  const LightSources sources({light});
+  for (uint64_t seed = 0; seed < kRepeats; ++seed) {
+    sum += sources.Irradiance({{}, {0, 0, 1}, {0, 0, 1}}, 16, seed,
+                              [](const LightSample&) { return true; });
+  }
+  sum = sum / float(kRepeats);
+  for (int i = 0; i < 65536; ++i) {
+    const Vec3f d = CosineHemisphere((float(i) + 0.5f) / 65536, RadicalInverse(uint32_t(i), 0));
+    sum += sources.Radiance(d) * (float(kPi) / 65536);
+  }
+  for (int band = 0; band < 3; ++band) {
+    // 8192 samples, each at most three times the mean: 4 standard errors.
+    EXPECT_NEAR(sum[band], expected[band], 0.05 * expected[band]);
+  }
+}
+
+// The sun of an image is a directional light of radiance times solid angle. The middle of the image
+// is seen to the north, +y here; a quarter to the right of it to the east, +x.
+TEST(LightSource, ABrightTexelIsASun) {
+  constexpr int kWidth = 512, kHeight = 256;
+  constexpr int kRow = kHeight / 4, kColumn = kWidth * 3 / 4;  // 45 degrees high in the east.
+  std::vector<Spectrum> texels(size_t(kWidth) * kHeight);
+  texels[size_t(kRow) * kWidth + kColumn] = {1e4f, 2e4f, 3e4f};
+  Light light = MakeSurroundings(kWidth, kHeight, texels);
+  const double sine = std::sin(kPi / 4 - kPi / kHeight / 2),
+               solidAngle = 2 * kPi / kWidth *
+                            (std::cos(kPi * kRow / kHeight) - std::cos(kPi * (kRow + 1) / kHeight));
+  const Vec3f toward = Normalize(Vec3f(1, 0, 1));
+  for (const float turn : {0.f, float(kPi) / 2}) {
+    light.rotation = turn;
+    // Turned by a quarter clockwise it stands in the south, -y.
+    const Vec3f n = turn == 0 ? toward : Vec3f(0, -toward.x, toward.z);
+    EXPECT_NEAR(OpenIrradiance({light}, {}, n).g, 2e4 * solidAngle, 1e-3 * 2e4 * solidAngle);
+    EXPECT_NEAR(OpenIrradiance({light}, {}, {0, 0, 1}).b, 3e4 * solidAngle * sine,
+                1e-2 * 3e4 * solidAngle);
+    EXPECT_EQ(OpenIrradiance({light}, {}, -n).g, 0);
+  }
 }
 
 TEST(LightSource, WhatIsBlackIsLeftOut) {
