@@ -86,7 +86,7 @@ void CacheGatherer::Follow(int32_t ray, uint64_t hop, Spectrum* irradiance, int6
   const RayHit& hit = batch_.Hit(ray);
   const Trail& trail = trails_[size_t(ray)];
   const Side side = SideOf(hit, batch_.Direction(ray));
-  const Vec3f normal = mesh.FrontNormal(hit.face) * (side == kFront ? 1.f : -1.f);
+  const Vec3f normal = hit.front * (side == kFront ? 1.f : -1.f);
   const Vec3f middle =
       (mesh.Corner(hit.face, 0) + mesh.Corner(hit.face, 1) + mesh.Corner(hit.face, 2)) / 3.f;
   const LightReceiver at{DrawnInward(batch_.HitPosition(ray), middle, rays_), normal, normal};

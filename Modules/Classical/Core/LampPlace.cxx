@@ -76,8 +76,8 @@ Vec3d PickOverHemisphere(const SeenTriangle& triangle, const Vec3f& normal, Rand
 Vec3d PickOverTriangle(const SeenTriangle& triangle, const Vec3f& normal, Random* random) {
   Vec3d toward[3];
   for (int c = 0; c < 3; ++c) toward[c] = Normalize(triangle.corners[c]);
-  if (!(SolidAngle(toward[0], toward[1], toward[2]) > kSpeck)) return {};
   const SphericalTriangle sphere(toward[0], toward[1], toward[2]);
+  if (!(sphere.SolidAngle() > kSpeck)) return {};
   const Vec3d axis(normal);
   const double largest = LargestCosine(triangle, toward, axis);
   Vec3d direction;

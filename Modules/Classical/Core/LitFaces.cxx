@@ -48,7 +48,7 @@ class LightSeeker {
       const RayHit hit = rayScene_.Closest(at.position, direction);
       ++*rays;
       if (hit.face < 0) return !sources_.Sky(direction).IsBlack();
-      const Vec3f front = scene_.mesh.FrontNormal(hit.face);
+      const Vec3f front = hit.front;
       const Side side = Dot(front, direction) < 0 ? kFront : kBack;
       if (scene_.mesh.Emits(hit.face, side) && !scene_.mesh.emittance[size_t(hit.face)].IsBlack()) {
         return true;
@@ -177,7 +177,7 @@ class LitSideSearch {
     const Vec3f direction = CosineDirection(at.normal, random);
     const RayHit hit = rayScene_.Closest(at.position, direction);
     if (hit.face < 0) return -1;
-    return 2 * int64_t(hit.face) + (Dot(scene_.mesh.FrontNormal(hit.face), direction) < 0 ? 0 : 1);
+    return 2 * int64_t(hit.face) + (Dot(hit.front, direction) < 0 ? 0 : 1);
   }
 
   int64_t ElementCount(int64_t face) const {

@@ -18,21 +18,22 @@ class SphericalTriangle {
  public:
   SphericalTriangle() = default;
   SphericalTriangle(const Vec3d& a, const Vec3d& b, const Vec3d& c) : a_(a), b_(b) {
-    // Interior angles; their sum less pi is the solid angle, of which a sample takes a share.
-    const Vec3d ab = Normalize(Cross(a, b)), bc = Normalize(Cross(b, c)),
-                ca = Normalize(Cross(c, a));
-    const double alpha = Angle(ab, -ca);
-    excess_ = alpha + Angle(bc, -ab) + Angle(ca, -bc) - kPi;
-    cosAlpha_ = std::cos(alpha);
-    sinAlpha_ = std::sin(alpha);
+    // The interior angle at a. A sample takes a share of the solid angle.
+    const Vec3d ab = Normalize(Cross(a, b)), ca = Normalize(Cross(c, a));
+    cosAlpha_ = -Dot(ab, ca);
+    sinAlpha_ = Length(Cross(ab, ca));
+    solidAngle_ = lambert::SolidAngle(a, b, c);
     towardC_ = Perpendicular(c, a);
     cosAB_ = Dot(a, b);
   }
 
+  double SolidAngle() const { return solidAngle_; }  ///< sr
+
   /// u0, u1 in [0,1).
   Vec3d Sample(double u0, double u1) const {
     // The corner c moves along the edge ca to cp, so that the triangle a, b, cp has its share.
-    const double share = kPi + u0 * excess_, sinShare = std::sin(share), cosShare = std::cos(share);
+    const double share = u0 * solidAngle_;
+    const double sinShare = -std::sin(share), cosShare = -std::cos(share);  // of pi more than it
     const double sinPhi = sinShare * cosAlpha_ - cosShare * sinAlpha_;
     const double cosPhi = cosShare * cosAlpha_ + sinShare * sinAlpha_;
     const double k1 = cosPhi + cosAlpha_, k2 = sinPhi - sinAlpha_ * cosAB_;
@@ -51,16 +52,13 @@ class SphericalTriangle {
   }
 
  private:
-  static double Angle(const Vec3d& v, const Vec3d& w) {
-    return std::atan2(Length(Cross(v, w)), Dot(v, w));
-  }
   static Vec3d Perpendicular(const Vec3d& v, const Vec3d& w) {
     return Normalize(v - w * Dot(v, w));
   }
 
   Vec3d a_, b_;
   Vec3d towardC_;  ///< unit, perpendicular to a
-  double excess_ = 0, cosAlpha_ = 1, sinAlpha_ = 0, cosAB_ = 1;
+  double solidAngle_ = 0, cosAlpha_ = 1, sinAlpha_ = 0, cosAB_ = 1;
 };
 
 }  // namespace lambert

@@ -211,10 +211,8 @@ DirectLight::FaceView::FaceView(const Emitter& emitter_, const GatherPoint& at_)
   for (int c = 0; c < 3; ++c) {
     toward[c] = Normalize(Vec3d(emitter.corners[c]) - Vec3d(at.position));
   }
-  const double angle = SolidAngle(toward[0], toward[1], toward[2]);
-  if (!(angle > kLeastSolidAngle)) return;
-  solidAngle = float(angle);
   triangle = SphericalTriangle(toward[0], toward[1], toward[2]);
+  if (triangle.SolidAngle() > kLeastSolidAngle) solidAngle = float(triangle.SolidAngle());
 }
 
 // A place on a face: uniform in solid angle where it looks large, else in area. `value` is what

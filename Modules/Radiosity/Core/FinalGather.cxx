@@ -89,6 +89,8 @@ void FinalGather::FindCut(int32_t index) {
   Vec3f first[kMaximumPolygonCorners], second[kMaximumPolygonCorners];
   const int count = hierarchy_.PolygonCorners(hierarchy_[element.child], first);
   const int others = hierarchy_.PolygonCorners(hierarchy_[element.child + 1], second);
+  Cut& cut = cuts_[size_t(index)];
+  cut.child = element.child;
   float least = std::numeric_limits<float>::max();
   for (int i = 0; i < count; ++i) {
     const Vec3f inward = Normalize(Cross(element.axis, first[(i + 1) % count] - first[i]));
@@ -98,19 +100,19 @@ void FinalGather::FindCut(int32_t index) {
     }
     if (inward == Vec3f() || farthest >= least) continue;
     least = farthest;
-    cuts_[size_t(index)] = {inward, -Dot(inward, first[i])};
+    cut.normal = inward;
+    cut.offset = -Dot(inward, first[i]);
   }
 }
 
 int32_t FinalGather::LeafAt(int64_t face, Side side, const Vec3f& position) const {
   int32_t index = elementOfFace_[side][size_t(face)];
   if (index < 0) return -1;
-  while (!hierarchy_[index].IsLeaf()) {
+  for (;;) {
     const Cut& cut = cuts_[size_t(index)];
-    const bool isFirst = Dot(cut.normal, position) + cut.offset >= 0;
-    index = hierarchy_[index].child + (isFirst ? 0 : 1);
+    if (cut.child < 0) return index;
+    index = cut.child + (Dot(cut.normal, position) + cut.offset >= 0 ? 0 : 1);
   }
-  return index;
 }
 
 // What arrives at the samples of a leaf, in the mean.
@@ -355,9 +357,8 @@ FinalGather::Radiosity FinalGather::Met(const Vec3f& from, const Vec3f& directio
   const TriangleMesh& mesh = hierarchy_.GetScene().mesh;
   const Spectrum& reflectance = mesh.reflectance[size_t(hit.face)];
   if (reflectance.IsBlack()) return {{}, {}, hit.distance};
-  const Vec3f front = mesh.FrontNormal(hit.face);
-  const Side side = Dot(front, direction) < 0 ? kFront : kBack;
-  const Vec3f normal = side == kFront ? front : -front;
+  const Side side = Dot(hit.front, direction) < 0 ? kFront : kBack;
+  const Vec3f normal = side == kFront ? hit.front : -hit.front;
   const Vec3f place = from + direction * hit.distance;
   const int32_t leaf = this->LeafAt(hit.face, side, place);
   if (leaf < 0) return {{}, {}, hit.distance};

@@ -106,6 +106,7 @@ class FinalGather {
   struct Cut {
     Vec3f normal;
     float offset = 0;
+    int32_t child = -1;  ///< the first one; -1: not cut
   };
   void FindCut(int32_t index);
 
@@ -124,7 +125,7 @@ class FinalGather {
   std::vector<uint8_t> hasGathered_;                                    ///< by element
   std::vector<uint8_t> isUneven_;  ///< by element: its samples may lie on two sides of a wall
   float meanRadiosity_ = 0;        ///< of the leaves that have gathered, what they reflect, W/m2
-  std::vector<Cut> cuts_;          ///< by element, of triangles and patches that have children
+  std::vector<Cut> cuts_;          ///< by element, of triangles and patches
 };
 
 }  // namespace lambert

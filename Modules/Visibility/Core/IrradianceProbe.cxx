@@ -183,7 +183,7 @@ ProbeReader::Gathered ProbeReader::Gather(const ProbePoint& probe, Random* rando
 
     // Radiosity of the side that was hit; its own emission is weighted against the choice of
     // emitters.
-    const Vec3f front = mesh.FrontNormal(hit.face);
+    const Vec3f front = hit.front;
     const Side side = SideFacing(front, direction);
     const bool emits = mesh.Emits(hit.face, side);
     const Spectrum emittance = emits ? mesh.emittance[size_t(hit.face)] : Spectrum(0.f);
@@ -287,7 +287,7 @@ bool ProbeReader::SeesDarknessAllAround(const Vec3f& position, Random* random) c
       ++escaping;
       continue;
     }
-    const Side side = SideFacing(scene_.mesh.FrontNormal(hit.face), direction);
+    const Side side = SideFacing(hit.front, direction);
     if (!scene_.mesh.Emits(hit.face, side) && !lookup_.Models(hit.face, side)) ++dark;
   }
   return dark >= kDarkSphere * count && escaping <= kEscaping * count;

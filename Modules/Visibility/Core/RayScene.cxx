@@ -105,6 +105,7 @@ RayHit RayScene::Closest(const Vec3f& from, const Vec3f& unitDirection) const {
   hit.face = int32_t(query.hit.primID);
   hit.distance = query.ray.tfar;
   hit.barycentric = {query.hit.u, query.hit.v};
+  hit.front = Normalize(Vec3f(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z));
   return hit;
 }
 

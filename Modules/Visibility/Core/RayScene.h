@@ -18,6 +18,7 @@ struct RayHit {
   int32_t face = -1;   ///< -1: nothing
   float distance = 0;  ///< along the unit direction, m
   Vec2f barycentric;   ///< weights of corners 1 and 2
+  Vec3f front;         ///< normal of the face's front, unit; zero of a face without area
 };
 
 /// A bounding volume hierarchy over all faces of a mesh; both sides of a face block.
