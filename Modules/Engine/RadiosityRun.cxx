@@ -265,7 +265,7 @@ std::vector<std::string> RadiosityRun::Warnings() const {
                        " m across and has lamps of given intensity; --unit may be wanted.");
   }
   if (this->error_ && this->error_->points == 0) {
-    warnings.push_back("No error was measured: no face receives light that does not emit itself.");
+    warnings.push_back("No error was measured: no place was found that receives light.");
   } else if (this->error_ &&
              this->error_->rmsHigh - this->error_->rmsLow > 0.3 * this->error_->rms) {
     warnings.push_back(

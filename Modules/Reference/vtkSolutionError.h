@@ -45,8 +45,8 @@ class LAMBERTREFERENCE_EXPORT vtkSolutionError : public vtkTableAlgorithm {
   void SetSceneData(vtkDataObject* scene);
   ///@}
 
-  ///@{ Receiver points, stratified by area over both sides of every face that does not emit,
-  /// [1, inf); default 2000. In scenes of closed things about half turn out dark.
+  ///@{ Receiver points, stratified by area over both sides of every face that does not emit, of
+  /// every face where all emit, [1, inf); default 2000. In scenes of closed things about half turn out dark.
   void SetPoints(int points);
   int GetPoints();
   ///@}

@@ -51,15 +51,20 @@ ReceiverPoint ReceiverAt(const TriangleMesh& mesh, int32_t face, Side side, cons
   return point;
 }
 
-/// Places stratified by area over both sides of every face that does not emit: all fronts, then all
-/// backs.
+/// Places stratified by area over both sides of every face that receives: all fronts, then all
+/// backs. Faces that emit do not count, but where there are no others (a furnace).
 std::vector<Place> StratifiedPlaces(const TriangleMesh& mesh, const SolutionErrorOptions& options) {
-  std::vector<double> upTo(size_t(mesh.FaceCount()));
+  const int64_t count = mesh.FaceCount();
+  const auto emits = [&](int64_t face) {
+    return (mesh.Emits(face, kFront) || mesh.Emits(face, kBack)) &&
+           !mesh.emittance[size_t(face)].IsBlack();
+  };
+  bool allEmit = true;
+  for (int64_t face = 0; face < count; ++face) allEmit = allEmit && emits(face);
+  std::vector<double> upTo(size_t(count), 0);
   double total = 0;
-  for (int32_t face = 0; face < int32_t(mesh.FaceCount()); ++face) {
-    const bool emits = (mesh.Emits(face, kFront) || mesh.Emits(face, kBack)) &&
-                       !mesh.emittance[size_t(face)].IsBlack();
-    if (!emits) total += mesh.Area(face);
+  for (int64_t face = 0; face < count; ++face) {
+    if (allEmit || !emits(face)) total += mesh.Area(face);
     upTo[size_t(face)] = total;
   }
   std::vector<Place> places;

@@ -14,7 +14,7 @@ namespace lambert {
 
 struct SolutionErrorOptions {
   int points = 2000;   ///< receiver points, stratified by area over both sides of every face that
-                       ///< does not emit
+                       ///< does not emit; of every face where all emit
   int samples = 1024;  ///< paths a point, [2, inf)
   uint64_t seed = 1;
   /// Up to so many times the paths, [1, inf), where those do not decide: more a point where the

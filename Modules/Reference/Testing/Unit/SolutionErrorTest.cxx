@@ -64,6 +64,20 @@ TEST(SolutionError, AllOfASolutionThatModelsNothing) {
   EXPECT_NEAR(error.bias, -1, 1e-6);
 }
 
+// Where all faces emit they are what receives: half of the light of a furnace with exitance 1 and
+// reflectance 1/2, irradiance 2, is half an error.
+TEST(SolutionError, HalfOfAFurnaceIsMissing) {
+  Scene scene;
+  AddBox(&scene.mesh, {0, 0, 0}, {1, 1, 1}, BoxMaterials(0.5f, 1), true, 2);
+  CompleteTables(&scene);
+  const SolutionError error =
+      MeasureSolutionError(scene, FlatSolution(scene, 1, 3, false), {500, 256, 1});
+  EXPECT_NEAR(double(error.points), 250, 1);
+  const double allowance = 4 * error.noise / std::sqrt(double(error.points)) + 1e-5;
+  EXPECT_NEAR(error.rms, 0.5, allowance);
+  EXPECT_NEAR(error.bias, -0.5, allowance);
+}
+
 TEST(SolutionError, InterpolatesWithinRefinedFaces) {
   // Irradiance 1 + x on a floor under a sky would be wrong by x everywhere: rms^2 is the mean of
   // x^2 = 1/3, the bias the mean of x = 1/2. 4000 stratified points sample that to 1 %.
