@@ -17,24 +17,26 @@ class FacePoints {
   FacePoints(const TriangleMesh& mesh, const ClusterNode& node, const FaceRuns* runs)
       : mesh_(mesh), node_(node), runs_(runs) {}
 
-  int32_t FaceCount() const { return node_.faceCount; }
   Vec3d First() const { return Vec3d(mesh_.Corner(node_.firstFace, 0)); }
-
-  /// Each once for every face about it, in the order of the faces.
-  template <class Visit>
-  void ForEachCorner(const Visit& visit) const {
-    for (int32_t face = node_.firstFace; face < node_.firstFace + node_.faceCount; ++face) {
-      for (int k = 0; k < 3; ++k) visit(Vec3d(mesh_.Corner(face, k)));
-    }
+  PointSpread Spread() const {
+    if (runs_) return runs_->SpreadOf(node_);
+    return PointSpread::OfCorners(mesh_, node_.firstFace, this->End());
   }
   /// Each at least once.
   template <class Visit>
   void ForEach(const Visit& visit) const {
-    if (!runs_) return this->ForEachCorner(visit);
-    runs_->ForEachPoint(node_, [&](const Vec3f& p) { visit(Vec3d(p)); });
+    if (runs_) {
+      runs_->ForEachPoint(node_, [&](const Vec3f& p) { visit(Vec3d(p)); });
+      return;
+    }
+    for (int32_t face = node_.firstFace; face < this->End(); ++face) {
+      for (int k = 0; k < 3; ++k) visit(Vec3d(mesh_.Corner(face, k)));
+    }
   }
 
  private:
+  int32_t End() const { return node_.firstFace + node_.faceCount; }
+
   const TriangleMesh& mesh_;
   const ClusterNode& node_;
   const FaceRuns* runs_;
@@ -43,20 +45,10 @@ class FacePoints {
 Vec3d ToVec3d(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 /// Spreads along three axes, smallest first, with the axes in columns: eigenvalues of Z (4.5).
-Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> PrincipalAxes(const FacePoints& points) {
-  const Vec3d origin = points.First();
-  Vec3d sum;
-  points.ForEachCorner([&](const Vec3d& p) { sum += p - origin; });
-  const Vec3d mean = origin + sum / (3.0 * points.FaceCount());  // (4.6)
-  Vec3d diagonal, mixed;                                         // (4.5): xx, yy, zz and yz, zx, xy
-  points.ForEachCorner([&](const Vec3d& p) {
-    const Vec3d d = p - mean;
-    diagonal += Vec3d(d.x * d.x, d.y * d.y, d.z * d.z);
-    mixed += Vec3d(d.y * d.z, d.z * d.x, d.x * d.y);
-  });
+Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> PrincipalAxes(const PointSpread& spread) {
+  const Vec3d &d = spread.diagonal, &m = spread.mixed;
   Eigen::Matrix3d covariance;
-  covariance << diagonal.x, mixed.z, mixed.y, mixed.z, diagonal.y, mixed.x, mixed.y, mixed.x,
-      diagonal.z;
+  covariance << d.x, m.z, m.y, m.z, d.y, m.x, m.y, m.x, d.z;
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance);
 }
 
@@ -105,7 +97,7 @@ ClusterFrame FrameAlong(const Axes& axes, const FacePoints& points) {
 
 ClusterFrame FrameOf(const FacePoints& points, const ClusterNode& node) {
   if (node.faceCount <= 0) return {{}, {Vec3f{1, 0, 0}, Vec3f{0, 1, 0}, Vec3f{0, 0, 1}}, {}};
-  const auto principal = PrincipalAxes(points);
+  const auto principal = PrincipalAxes(points.Spread());
   const Eigen::Vector3d spread = principal.eigenvalues();
   const Vec3d vectorArea(node.vectorArea);
   Vec3d leastSpread = Normalize(ToVec3d(principal.eigenvectors().col(0)));

@@ -48,6 +48,7 @@ FaceRuns::FaceRuns(const TriangleMesh& mesh)
 FaceRuns::Run FaceRuns::MakeRun(const TriangleMesh& mesh, int64_t first, int64_t end) {
   Run run;
   run.points = PointsOfFaces(mesh, first, end);
+  run.spread = PointSpread::OfCorners(mesh, first, end);
   Vec3f sum;
   for (int64_t face = first; face < end; ++face) sum += mesh.FrontNormal(face);
   run.axis = Normalize(sum);
@@ -58,6 +59,14 @@ FaceRuns::Run FaceRuns::MakeRun(const TriangleMesh& mesh, int64_t first, int64_t
     if (normal != Vec3f()) run.cosine = std::min(run.cosine, Dot(normal, run.axis));
   }
   return run;
+}
+
+PointSpread FaceRuns::SpreadOf(const ClusterNode& node) const {
+  PointSpread spread;
+  this->ForEachPart(
+      node, [&](int32_t face, int32_t end) { spread += PointSpread::OfCorners(mesh_, face, end); },
+      [&](const Run& run) { spread += run.spread; });
+  return spread;
 }
 
 // No normal is farther from `axis` than the run's axis and the farthest from that together.

@@ -1,11 +1,12 @@
 // Runs of faces that follow each other in tree order: the points and normals that a large cluster
-// reaches to are found without a look at each face.
+// reaches to, and how its points spread, are found without a look at each face.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "Clustering/Core/FaceClustering.h"
+#include "Clustering/Core/PointSpread.h"
 #include "Common/Core/TriangleMesh.h"
 
 namespace lambert {
@@ -29,6 +30,9 @@ class FaceRuns {
         });
   }
 
+  /// Of the corners of the faces of a cluster.
+  PointSpread SpreadOf(const ClusterNode& node) const;
+
   /// Smallest cosine between the unit vector `axis` and the front normal of a face of a cluster;
   /// faces of up to `negligible` m2 do not count. 1 where none does.
   float LeastCosine(const ClusterNode& node, const Vec3f& axis, float negligible) const;
@@ -40,6 +44,7 @@ class FaceRuns {
     std::vector<Vec3f> points;  ///< few of them twice
     Vec3f axis;                 ///< unit, among its normals; zero where they turn to all sides
     float cosine = -1;          ///< of the largest angle between the axis and one of them
+    PointSpread spread;
   };
   static Run MakeRun(const TriangleMesh& mesh, int64_t face, int64_t end);
   static float LeastCosine(const Run& run, const Vec3f& axis);
