@@ -31,7 +31,21 @@ lambertOptionMacro(TimeLimit, double, timeLimit);
 lambertOptionMacro(Iterations, int, iterations);
 lambertOptionMacro(VerificationPoints, int, verificationPoints);
 lambertOptionMacro(FinalGather, bool, finalGather);
+lambertOptionMacro(SnapTolerance, float, leafMesh.snapTolerance);
 #undef lambertOptionMacro
+
+void vtkHierarchicalRadiosity::SetRefinement(int value) {
+  const auto refinement =
+      value == QUADTREE ? lambert::PatchRefinement::Quadtree : lambert::PatchRefinement::Rectangle;
+  if (this->Options->leafMesh.refinement != refinement) {
+    this->Options->leafMesh.refinement = refinement;
+    this->Modified();
+  }
+}
+int vtkHierarchicalRadiosity::GetRefinement() {
+  return this->Options->leafMesh.refinement == lambert::PatchRefinement::Quadtree ? QUADTREE
+                                                                                  : RECTANGLE;
+}
 
 namespace {
 /// The tree of `methodScene`: the given one, else one of its own, which brings the faces into its
@@ -105,5 +119,7 @@ void vtkHierarchicalRadiosity::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "TimeLimit: " << this->GetTimeLimit() << "\n"
      << indent << "Iterations: " << this->GetIterations() << "\n"
      << indent << "VerificationPoints: " << this->GetVerificationPoints() << "\n"
-     << indent << "FinalGather: " << this->GetFinalGather() << "\n";
+     << indent << "FinalGather: " << this->GetFinalGather() << "\n"
+     << indent << "Refinement: " << this->GetRefinement() << "\n"
+     << indent << "SnapTolerance: " << this->GetSnapTolerance() << "\n";
 }

@@ -59,6 +59,19 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   bool GetFinalGather();
   vtkBooleanMacro(FinalGather, bool);
   ///@}
+  ///@{ How triangles are refined: in halves across the minimum-area rectangle (thesis 4.4.2), or
+  /// regularly into four (3.4.2), for comparison; default RECTANGLE.
+  enum Refinements { RECTANGLE, QUADTREE };
+  void SetRefinement(int refinement);
+  int GetRefinement();
+  void SetRefinementToRectangle() { this->SetRefinement(RECTANGLE); }
+  void SetRefinementToQuadtree() { this->SetRefinement(QUADTREE); }
+  ///@}
+  ///@{ A line across a rectangle moves to a vertex within this fraction of its longer side, [0,
+  /// 0.5); default 0.15.
+  void SetSnapTolerance(float tolerance);
+  float GetSnapTolerance();
+  ///@}
 
  protected:
   vtkHierarchicalRadiosity();
