@@ -62,8 +62,29 @@ std::vector<CLI::Option*> AddAtlasOptions(CLI::App* command, AtlasOptions* atlas
           ->capture_default_str()};
 }
 
-/// How hierarchical radiosity splits triangles.
-void AddRefinementOptions(CLI::App* command, LeafMeshOptions* leafMesh) {
+/// How hierarchical radiosity refines links and splits triangles.
+void AddRefinementOptions(CLI::App* command, HierarchicalRadiosityOptions* solver) {
+  std::map<std::string, OracleKind> oracles;
+  for (const OracleKind kind :
+       {OracleKind::Doubt, OracleKind::Geometric, OracleKind::Bfa, OracleKind::Visibility}) {
+    oracles[OracleName(kind)] = kind;
+  }
+  command
+      ->add_option_function<std::string>(
+          "--oracle", [=](const std::string& name) { solver->oracle = oracles.at(name); },
+          "What judges links")
+      ->check(CLI::IsMember(oracles))
+      ->default_str(OracleName(solver->oracle));
+  command
+      ->add_option_function<std::string>(
+          "--schedule",
+          [=](const std::string& name) {
+            solver->schedule = name == "interleaved" ? Schedule::Interleaved : Schedule::Scheduled;
+          },
+          "Light settles between refinements, or bounces once after each")
+      ->check(CLI::IsMember({"scheduled", "interleaved"}))
+      ->default_str("scheduled");
+  LeafMeshOptions* leafMesh = &solver->leafMesh;
   command
       ->add_option_function<std::string>(
           "--refinement",
@@ -288,7 +309,7 @@ void SolveArguments::AddTo(CLI::App* command) {
       ->check(CLI::Range(1, 1000000));
   command->add_flag("!--no-final-gather", solver.finalGather,
                     "Deliver what links brought, without gathering anew at the points");
-  AddRefinementOptions(command, &solver.leafMesh);
+  AddRefinementOptions(command, &solver);
   command->add_option("--threads", threads, "Threads; 0: all processors")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

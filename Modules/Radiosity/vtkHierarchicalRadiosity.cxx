@@ -11,6 +11,8 @@
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
+#include <algorithm>
+
 vtkStandardNewMacro(vtkHierarchicalRadiosity);
 
 vtkHierarchicalRadiosity::vtkHierarchicalRadiosity()
@@ -34,18 +36,20 @@ lambertOptionMacro(FinalGather, bool, finalGather);
 lambertOptionMacro(SnapTolerance, float, leafMesh.snapTolerance);
 #undef lambertOptionMacro
 
-void vtkHierarchicalRadiosity::SetRefinement(int value) {
-  const auto refinement =
-      value == QUADTREE ? lambert::PatchRefinement::Quadtree : lambert::PatchRefinement::Rectangle;
-  if (this->Options->leafMesh.refinement != refinement) {
-    this->Options->leafMesh.refinement = refinement;
-    this->Modified();
-  }
-}
-int vtkHierarchicalRadiosity::GetRefinement() {
-  return this->Options->leafMesh.refinement == lambert::PatchRefinement::Quadtree ? QUADTREE
-                                                                                  : RECTANGLE;
-}
+// The choices of the core, in the order of the enumerations here.
+#define lambertChoiceMacro(name, type, last, member)                        \
+  void vtkHierarchicalRadiosity::Set##name(int value) {                     \
+    const auto choice = static_cast<type>(std::clamp<int>(value, 0, last)); \
+    if (this->Options->member != choice) {                                  \
+      this->Options->member = choice;                                       \
+      this->Modified();                                                     \
+    }                                                                       \
+  }                                                                         \
+  int vtkHierarchicalRadiosity::Get##name() { return static_cast<int>(this->Options->member); }
+lambertChoiceMacro(Refinement, lambert::PatchRefinement, QUADTREE, leafMesh.refinement);
+lambertChoiceMacro(Oracle, lambert::OracleKind, VISIBILITY, oracle);
+lambertChoiceMacro(Schedule, lambert::Schedule, INTERLEAVED, schedule);
+#undef lambertChoiceMacro
 
 namespace {
 /// The tree of `methodScene`: the given one, else one of its own, which brings the faces into its
@@ -121,5 +125,9 @@ void vtkHierarchicalRadiosity::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "VerificationPoints: " << this->GetVerificationPoints() << "\n"
      << indent << "FinalGather: " << this->GetFinalGather() << "\n"
      << indent << "Refinement: " << this->GetRefinement() << "\n"
-     << indent << "SnapTolerance: " << this->GetSnapTolerance() << "\n";
+     << indent << "SnapTolerance: " << this->GetSnapTolerance() << "\n"
+     << indent << "Schedule: " << this->GetSchedule() << "\n"
+     << indent
+     << "Oracle: " << lambert::OracleName(static_cast<lambert::OracleKind>(this->GetOracle()))
+     << "\n";
 }
