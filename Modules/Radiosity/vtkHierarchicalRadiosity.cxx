@@ -124,10 +124,9 @@ void vtkHierarchicalRadiosity::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "Iterations: " << this->GetIterations() << "\n"
      << indent << "VerificationPoints: " << this->GetVerificationPoints() << "\n"
      << indent << "FinalGather: " << this->GetFinalGather() << "\n"
-     << indent << "Refinement: " << this->GetRefinement() << "\n"
+     << indent << "Refinement: " << lambert::RefinementName(this->Options->leafMesh.refinement)
+     << "\n"
      << indent << "SnapTolerance: " << this->GetSnapTolerance() << "\n"
-     << indent << "Schedule: " << this->GetSchedule() << "\n"
-     << indent
-     << "Oracle: " << lambert::OracleName(static_cast<lambert::OracleKind>(this->GetOracle()))
-     << "\n";
+     << indent << "Schedule: " << lambert::ScheduleName(this->Options->schedule) << "\n"
+     << indent << "Oracle: " << lambert::OracleName(this->Options->oracle) << "\n";
 }

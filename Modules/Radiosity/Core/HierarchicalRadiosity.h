@@ -18,6 +18,10 @@ namespace lambert {
 /// threshold and the next; or one bounce follows every refinement, until light settles at the last
 /// threshold.
 enum class Schedule : uint8_t { Scheduled, Interleaved };
+/// "scheduled" or "interleaved".
+inline const char* ScheduleName(Schedule schedule) {
+  return schedule == Schedule::Interleaved ? "interleaved" : "scheduled";
+}
 
 struct HierarchicalRadiosityOptions {
   double error = 0.05;  ///< wanted relative RMS error of irradiance, (0, 1]

@@ -14,6 +14,10 @@ namespace lambert {
 /// How a patch is split: in halves across its minimum-area rectangle (thesis 4.4.2), or into four
 /// triangles at the middles of its sides (3.4.2).
 enum class PatchRefinement : uint8_t { Rectangle, Quadtree };
+/// "rectangle" or "quadtree".
+inline const char* RefinementName(PatchRefinement refinement) {
+  return refinement == PatchRefinement::Quadtree ? "quadtree" : "rectangle";
+}
 
 struct LeafMeshOptions {
   PatchRefinement refinement = PatchRefinement::Rectangle;
