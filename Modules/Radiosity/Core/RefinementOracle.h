@@ -37,7 +37,7 @@ struct LinkEvidence {
   const Element& source;
   const Element& receiver;
   PairBound bound;
-  float radiosity = 0;     ///< of the source, its largest band, W/m2; lights: 1
+  float radiosity = 0;     ///< of the source, its largest band, W/m2; of lights as in ElementLight
   float variation = 0;     ///< standard deviation of it within the source, W/m2
   float visibility = -1;   ///< sampled, in [0, 1]; negative where it is not known yet
   Vec3f transfer{};        ///< sampled (4.23), visibility included, per unit radiosity
