@@ -62,6 +62,46 @@ std::vector<CLI::Option*> AddAtlasOptions(CLI::App* command, AtlasOptions* atlas
           ->capture_default_str()};
 }
 
+/// How hierarchical radiosity refines links and splits triangles.
+void AddRefinementOptions(CLI::App* command, HierarchicalRadiosityOptions* solver) {
+  std::map<std::string, OracleKind> oracles;
+  for (const OracleKind kind :
+       {OracleKind::Doubt, OracleKind::Geometric, OracleKind::Bfa, OracleKind::Visibility}) {
+    oracles[OracleName(kind)] = kind;
+  }
+  command
+      ->add_option_function<std::string>(
+          "--oracle", [=](const std::string& name) { solver->oracle = oracles.at(name); },
+          "What judges links")
+      ->check(CLI::IsMember(oracles))
+      ->default_str(OracleName(solver->oracle));
+  command
+      ->add_option_function<std::string>(
+          "--schedule",
+          [=](const std::string& name) {
+            solver->schedule = name == "interleaved" ? Schedule::Interleaved : Schedule::Scheduled;
+          },
+          "Light settles between refinements, or bounces once after each")
+      ->check(CLI::IsMember({"scheduled", "interleaved"}))
+      ->default_str("scheduled");
+  LeafMeshOptions* leafMesh = &solver->leafMesh;
+  command
+      ->add_option_function<std::string>(
+          "--refinement",
+          [=](const std::string& name) {
+            leafMesh->refinement =
+                name == "quadtree" ? PatchRefinement::Quadtree : PatchRefinement::Rectangle;
+          },
+          "Triangles are split across their minimum-area rectangle, or regularly into four")
+      ->check(CLI::IsMember({"rectangle", "quadtree"}))
+      ->default_str("rectangle");
+  command
+      ->add_option("--snap-tolerance", leafMesh->snapTolerance,
+                   "Splitting lines move to vertices within this part of the rectangle, [0, 0.5)")
+      ->check(Within(0, 0.499, "from 0 to 0.499"))
+      ->capture_default_str();
+}
+
 /// How light becomes the colours of pictures and of PLY.
 void AddToneOptions(CLI::App* command, ToneMappingOptions* tone, bool* dodgingAndBurning) {
   const std::map<std::string, ToneCurve> curves{{"photographic", ToneCurve::Photographic},
@@ -269,6 +309,7 @@ void SolveArguments::AddTo(CLI::App* command) {
       ->check(CLI::Range(1, 1000000));
   command->add_flag("!--no-final-gather", solver.finalGather,
                     "Deliver what links brought, without gathering anew at the points");
+  AddRefinementOptions(command, &solver);
   command->add_option("--threads", threads, "Threads; 0: all processors")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

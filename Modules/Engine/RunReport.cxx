@@ -120,6 +120,9 @@ Json MethodJson(const RadiosityRunOptions& options) {
     method["time"] = options.timeLimit;
     method["iterations"] = options.solver.iterations;
     method["final_gather"] = options.solver.finalGather;
+    method["oracle"] = OracleName(options.solver.oracle);
+    method["schedule"] = ScheduleName(options.solver.schedule);
+    method["refinement"] = RefinementName(options.solver.leafMesh.refinement);
   }
   for (const auto& [name, value] : ValuesOf(options.method)) {
     method[name] = value == std::floor(value) ? Json(static_cast<int64_t>(value)) : Json(value);

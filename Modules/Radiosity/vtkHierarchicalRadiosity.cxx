@@ -11,6 +11,8 @@
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 
+#include <algorithm>
+
 vtkStandardNewMacro(vtkHierarchicalRadiosity);
 
 vtkHierarchicalRadiosity::vtkHierarchicalRadiosity()
@@ -31,7 +33,23 @@ lambertOptionMacro(TimeLimit, double, timeLimit);
 lambertOptionMacro(Iterations, int, iterations);
 lambertOptionMacro(VerificationPoints, int, verificationPoints);
 lambertOptionMacro(FinalGather, bool, finalGather);
+lambertOptionMacro(SnapTolerance, float, leafMesh.snapTolerance);
 #undef lambertOptionMacro
+
+// The choices of the core, in the order of the enumerations here.
+#define lambertChoiceMacro(name, type, last, member)                        \
+  void vtkHierarchicalRadiosity::Set##name(int value) {                     \
+    const auto choice = static_cast<type>(std::clamp<int>(value, 0, last)); \
+    if (this->Options->member != choice) {                                  \
+      this->Options->member = choice;                                       \
+      this->Modified();                                                     \
+    }                                                                       \
+  }                                                                         \
+  int vtkHierarchicalRadiosity::Get##name() { return static_cast<int>(this->Options->member); }
+lambertChoiceMacro(Refinement, lambert::PatchRefinement, QUADTREE, leafMesh.refinement);
+lambertChoiceMacro(Oracle, lambert::OracleKind, VISIBILITY, oracle);
+lambertChoiceMacro(Schedule, lambert::Schedule, INTERLEAVED, schedule);
+#undef lambertChoiceMacro
 
 namespace {
 /// The tree of `methodScene`: the given one, else one of its own, which brings the faces into its
@@ -105,5 +123,10 @@ void vtkHierarchicalRadiosity::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "TimeLimit: " << this->GetTimeLimit() << "\n"
      << indent << "Iterations: " << this->GetIterations() << "\n"
      << indent << "VerificationPoints: " << this->GetVerificationPoints() << "\n"
-     << indent << "FinalGather: " << this->GetFinalGather() << "\n";
+     << indent << "FinalGather: " << this->GetFinalGather() << "\n"
+     << indent << "Refinement: " << lambert::RefinementName(this->Options->leafMesh.refinement)
+     << "\n"
+     << indent << "SnapTolerance: " << this->GetSnapTolerance() << "\n"
+     << indent << "Schedule: " << lambert::ScheduleName(this->Options->schedule) << "\n"
+     << indent << "Oracle: " << lambert::OracleName(this->Options->oracle) << "\n";
 }

@@ -59,6 +59,38 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   bool GetFinalGather();
   vtkBooleanMacro(FinalGather, bool);
   ///@}
+  ///@{ How triangles are refined: in halves across the minimum-area rectangle (thesis 4.4.2), or
+  /// regularly into four (3.4.2), for comparison; default RECTANGLE.
+  enum Refinements { RECTANGLE, QUADTREE };
+  void SetRefinement(int refinement);
+  int GetRefinement();
+  void SetRefinementToRectangle() { this->SetRefinement(RECTANGLE); }
+  void SetRefinementToQuadtree() { this->SetRefinement(QUADTREE); }
+  ///@}
+  ///@{ A line across a rectangle moves to a vertex within this fraction of its longer side, [0,
+  /// 0.5); default 0.15.
+  void SetSnapTolerance(float tolerance);
+  float GetSnapTolerance();
+  ///@}
+  ///@{ What judges links: geometry and doubt in visibility; geometry alone; the power that samples
+  /// find (thesis 4.5.3); or as the first, but sure where all of one end sees all or nothing of the
+  /// other (9.2.2). Default DOUBT.
+  enum Oracles { DOUBT, GEOMETRIC, BFA, VISIBILITY };
+  void SetOracle(int oracle);
+  int GetOracle();
+  void SetOracleToDoubt() { this->SetOracle(DOUBT); }
+  void SetOracleToGeometric() { this->SetOracle(GEOMETRIC); }
+  void SetOracleToBfa() { this->SetOracle(BFA); }
+  void SetOracleToVisibility() { this->SetOracle(VISIBILITY); }
+  ///@}
+  ///@{ When light bounces (thesis 3.2.4): until it settles between one threshold and the next, or
+  /// once after every refinement; default SCHEDULED.
+  enum Schedules { SCHEDULED, INTERLEAVED };
+  void SetSchedule(int schedule);
+  int GetSchedule();
+  void SetScheduleToScheduled() { this->SetSchedule(SCHEDULED); }
+  void SetScheduleToInterleaved() { this->SetSchedule(INTERLEAVED); }
+  ///@}
 
  protected:
   vtkHierarchicalRadiosity();

@@ -19,7 +19,8 @@ def irradiance(name):
 
 # The default is hierarchical, and says so.
 report = solve(CORNELL_BOX, "-o", out, "--error", "0.3", "--iterations", "1")
-assert report["method"] == {"name": "hierarchical", "error": 0.3, "time": 0, "iterations": 1, "final_gather": True}, report["method"]
+assert report["method"] == {"name": "hierarchical", "error": 0.3, "time": 0, "iterations": 1, "final_gather": True,
+                            "oracle": "doubt", "schedule": "scheduled", "refinement": "rectangle"}, report["method"]
 assert report["requested_error"] == 0.3 and "clustering" in report and "energy_w" in report
 
 # The reference lights the vertices of the mesh as it is, without clusters.
@@ -62,11 +63,15 @@ for method, options in (("hierarchical", ["--samples", "--seed", "--element-size
                         ("cached", ["--error", "--time", "--iterations", "--samples"])):
     for option in options:
         fails(2, "solve", CORNELL_BOX, "-o", out, "--method", method, option, "1", says=[option, "--method " + method])
+for option, value in (("--oracle", "bfa"), ("--schedule", "interleaved"), ("--refinement", "quadtree"), ("--snap-tolerance", "0.1")):
+    fails(2, "solve", CORNELL_BOX, "-o", out, "--method", "matrix", option, value, says=[option, "--method matrix"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--samples", "9", says=["--method hierarchical"])  # Not given is the default.
 
 # Values without meaning.
 fails(2, "solve", CORNELL_BOX, "-o", out, "--method", "photons", says=["photons", "reference"])
-for method, option, value in (("reference", "--samples", "0"), ("reference", "--samples", "many"),
+for method, option, value in (("hierarchical", "--oracle", "delphi"), ("hierarchical", "--schedule", "never"),
+                              ("hierarchical", "--refinement", "octree"), ("hierarchical", "--snap-tolerance", "0.5"),
+                              ("reference", "--samples", "0"), ("reference", "--samples", "many"),
                               ("reference", "--seed", "-1"), ("matrix", "--element-size", "-1"),
                               ("matrix", "--element-size", "nan"), ("cached", "--paths", "0"), ("cached", "--gather-rays", "0"),
                               ("cached", "--output-size", "-1"), ("cached", "--emitter-rays", "0")):

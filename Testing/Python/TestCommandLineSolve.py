@@ -48,6 +48,12 @@ thresholds = [entry["threshold"] for entry in by_links["history"]]
 assert all(later < earlier for earlier, later in zip(thresholds, thresholds[1:])), thresholds
 assert 0 < by_links["history"][-1]["error"] <= 0.2 and by_links["rays"] < whole["rays"]
 
+# Other oracles, schedules and refinements make other links and triangles of it, and are named.
+chosen = {"oracle": "bfa", "schedule": "interleaved", "refinement": "quadtree"}
+other = solve(CORNELL_BOX, "-o", out, "--error", "0.3", "--no-final-gather", "--iterations", "3", "--snap-tolerance", "0.3",
+              *(word for name, value in chosen.items() for word in ("--" + name, value)))
+assert chosen.items() <= other["method"].items() and other["links"] != by_links["links"], other["method"]
+
 # A coarser run is cheaper; the files below are of two iterations.
 report = solve(CORNELL_BOX, "-o", out, "--error", "0.3", "--iterations", "2")
 assert report["links"]["total"] < whole["links"]["total"]

@@ -121,6 +121,7 @@ struct Link {
   uint8_t visibility = 0;  ///< visible fraction of the sample pairs, 0 to 255
   bool isSampled = false;  ///< false where the source was dark when the link was made: nothing is
                            ///< known of it yet
+  bool isCertain = false;  ///< visible as a whole, not just where it was sampled
 };
 
 }  // namespace lambert

@@ -367,10 +367,10 @@ float ElementHierarchy::Floor(int32_t face) const {
 }
 
 void ElementHierarchy::Split(const std::vector<int32_t>& parents) {
-  // Where the children come from: the cluster tree, or a cut through the polygon.
+  // Where the children come from: the cluster tree, or cuts through the polygon.
   struct Request {
     int32_t parent;
-    std::array<int32_t, 2> items;
+    int32_t item;
     ElementKind kind;
   };
   std::vector<Request> requests;
@@ -379,7 +379,7 @@ void ElementHierarchy::Split(const std::vector<int32_t>& parents) {
     if (!parent.IsLeaf() || !parent.canSplit) continue;
     if (!parent.IsPolygon()) {
       const int32_t child = tree_.nodes[size_t(parent.item)].child;
-      requests.push_back({index, {child, child + 1}, ElementKind::Face});
+      for (int32_t k = 0; k < 2; ++k) requests.push_back({index, child + k, ElementKind::Face});
     } else if (BelowFloor(parent)) {
       parent.canSplit = false;
     } else {
@@ -387,25 +387,27 @@ void ElementHierarchy::Split(const std::vector<int32_t>& parents) {
           parent.kind == ElementKind::Patch
               ? parent.item
               : leafMesh_.FacePatch(tree_.nodes[size_t(parent.item)].firstFace, parent.side);
-      requests.push_back({index, leafMesh_.Split(patch), ElementKind::Patch});
+      for (const int32_t part : leafMesh_.Split(patch)) {
+        requests.push_back({index, part, ElementKind::Patch});
+      }
     }
   }
 
   // Make them in parallel, number them in order.
-  std::vector<Element> children(requests.size() * 2);
+  std::vector<Element> children(requests.size());
   ParallelForEach(int64_t(children.size()), 1, [&](int64_t i) {
-    const Request& request = requests[size_t(i / 2)];
+    const Request& request = requests[size_t(i)];
     const Element& parent = elements_[size_t(request.parent)];
-    const int32_t item = request.items[size_t(i % 2)];
     Element& child = children[size_t(i)];
-    child = request.kind == ElementKind::Face ? MakeFaceElement(item, parent.side, parent.surface)
-                                              : MakePatchElement(item, parent);
+    child = request.kind == ElementKind::Face
+                ? MakeFaceElement(request.item, parent.side, parent.surface)
+                : MakePatchElement(request.item, parent);
     child.parent = request.parent;
     child.level = parent.level + 1;
   });
   for (size_t i = 0; i < children.size(); ++i) {
     const int32_t index = Append(children[i]);
-    Element& parent = elements_[size_t(requests[i / 2].parent)];
+    Element& parent = elements_[size_t(requests[i].parent)];
     if (parent.childCount++ == 0) parent.child = index;
   }
 }

@@ -30,6 +30,8 @@ constexpr double kFirstThreshold = 1e-2;
 constexpr double kThresholdFactor = 0.25;
 /// Bounces are followed until the radiosity changes by less than this in a sweep.
 constexpr double kSweepTolerance = 1e-3, kLastSweepTolerance = 1e-5;
+/// Any change will do after one sweep.
+constexpr double kOneSweep = std::numeric_limits<double>::max();
 constexpr int kMaximumSweeps = 500;
 /// Half-hidden leaves are split while they receive more than this many thresholds.
 constexpr double kExposureThreshold = 0.1;
@@ -181,6 +183,7 @@ struct HierarchicalRadiosity::Implementation {
         rayScene(scene_.mesh),
         litSides(FindLitSides(scene_, tree, rayScene, &statistics.rays)),
         hierarchy(scene_, tree, litSides, options_.leafMesh),
+        oracle(MakeRefinementOracle(options_.oracle, hierarchy, rayScene)),
         received(SourcePower(scene_)) {
     if (!(options.error > 0 && options.error <= 1)) {
       throw Error("The wanted error is " + std::to_string(options.error) +
@@ -197,6 +200,7 @@ struct HierarchicalRadiosity::Implementation {
   RayScene rayScene;
   std::vector<uint8_t> litSides;
   ElementHierarchy hierarchy;
+  std::unique_ptr<RefinementOracle> oracle;
   ElementLight light;
   LinkNetwork network;
   std::vector<Exposure> exposures;
@@ -281,19 +285,24 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
 bool HierarchicalRadiosity::Implementation::RefineAndExchange(double last, double* threshold,
                                                               double* change,
                                                               const ProgressCallback& progress) {
+  const bool isInterleaved = options.schedule == Schedule::Interleaved;
+  const auto tolerance = [&] { return *threshold <= last ? kLastSweepTolerance : kSweepTolerance; };
   for (;; *threshold *= kThresholdFactor) {
     *threshold = std::max(last, *threshold);
-    if (!RefineLinks(*threshold * received, rayScene, &hierarchy, &light, &network, progress)) {
-      return false;
-    }
-    delivered.reset();
-    *change = this->Exchange(*threshold <= last ? kLastSweepTolerance : kSweepTolerance);
+    do {
+      if (!RefineLinks(*threshold * received, *oracle, rayScene, &hierarchy, &light, &network,
+                       progress)) {
+        return false;
+      }
+      delivered.reset();
+      *change = this->Exchange(isInterleaved ? kOneSweep : tolerance());
+    } while (isInterleaved && *threshold <= last && *change > kSweepTolerance);
     if (*threshold <= last || ReceivedPower(hierarchy, light) > 0) break;
   }
   SplitByExposure(kExposureThreshold * *threshold * received, rayScene, &hierarchy, &light,
                   &network, &exposures);
   network.incoming.resize(size_t(hierarchy.Size()));
-  this->Exchange(*threshold <= last ? kLastSweepTolerance : kSweepTolerance);
+  this->Exchange(isInterleaved && *threshold > last ? kOneSweep : tolerance());
   received = std::max(received, ReceivedPower(hierarchy, light));
   return true;
 }

@@ -8,10 +8,20 @@
 #include "Clustering/Core/FaceClustering.h"
 #include "Common/Core/Progress.h"
 #include "Radiosity/Core/LeafMesh.h"
+#include "Radiosity/Core/RefinementOracle.h"
 #include "Scene/Core/RadiositySolution.h"
 #include "Scene/Core/Scene.h"
 
 namespace lambert {
+
+/// When links are refined and when light bounces (thesis 3.2.4): light settles between one
+/// threshold and the next; or one bounce follows every refinement, until light settles at the last
+/// threshold.
+enum class Schedule : uint8_t { Scheduled, Interleaved };
+/// "scheduled" or "interleaved".
+inline const char* ScheduleName(Schedule schedule) {
+  return schedule == Schedule::Interleaved ? "interleaved" : "scheduled";
+}
 
 struct HierarchicalRadiosityOptions {
   double error = 0.05;  ///< wanted relative RMS error of irradiance, (0, 1]
@@ -27,6 +37,8 @@ struct HierarchicalRadiosityOptions {
   /// Whether light is gathered anew at the points of the mesh in the end; without it what links
   /// brought is delivered, sooner and less exact.
   bool finalGather = true;
+  Schedule schedule = Schedule::Scheduled;
+  OracleKind oracle = OracleKind::Doubt;  ///< what judges links
   LeafMeshOptions leafMesh;
 };
 

@@ -1,6 +1,7 @@
 #include "Radiosity/Core/LeafMesh.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 
 #include "Common/Core/Error.h"
@@ -35,24 +36,34 @@ int32_t LeafMesh::Implementation::FacePatch(int32_t face, Side side) {
   return patch;
 }
 
-std::array<int32_t, 2> LeafMesh::Implementation::Split(int32_t id) {
-  Patch& patch = patches[size_t(id)];
-  if (patch.firstChild >= 0) return {patch.firstChild, patch.firstChild + 1};
-  if (patch.meshFace < 0) AddIsland(id);
+std::vector<int32_t> LeafMesh::Implementation::Parts(int32_t id) const {
+  const Patch& patch = patches[size_t(id)];
+  std::vector<int32_t> parts(size_t(patch.partCount));
+  std::iota(parts.begin(), parts.end(), patch.firstPart);
+  return parts;
+}
 
-  // Choose the line and put its ends into the border, and with it into the neighbours' (4.4.2).
+std::vector<int32_t> LeafMesh::Implementation::Split(int32_t id) {
+  Patch& patch = patches[size_t(id)];
+  if (patch.firstPart >= 0) return Parts(id);
+  if (patch.meshFace < 0) AddIsland(id);
   BorderOf(patch, &scratch);
   if (PatchExtent(scratch.polygon) < kSmallestPatch * scratch.faceLength) {
     throw Error("A patch of face " + std::to_string(patch.face) +
                 " is too small to be split; stop at larger patches.");
   }
-  return Cut(id, CutPatch(scratch.polygon, options.snapTolerance));
+
+  // Triangles in four (3.4.2); what lines of light have left of them, as all else, in two (4.4.2).
+  if (options.refinement == PatchRefinement::Quadtree && IsTriangle(scratch.polygon)) {
+    return Quarter(id, SideMiddles(scratch.polygon));
+  }
+  return Halve(id, CutPatch(scratch.polygon, options.snapTolerance));
 }
 
 std::vector<int32_t> LeafMesh::Implementation::SplitAlong(int32_t id,
                                                           const std::array<LeafLine, 2>& lines) {
   // The ends of the lines in the plane of the face.
-  if (patches[size_t(id)].firstChild >= 0) {
+  if (patches[size_t(id)].firstPart >= 0) {
     throw Error("Patch " + std::to_string(id) + " is split already; split one of its leaves.");
   }
   if (patches[size_t(id)].meshFace < 0) AddIsland(id);
@@ -70,15 +81,13 @@ std::vector<int32_t> LeafMesh::Implementation::SplitAlong(int32_t id,
       if (PatchExtent(scratch.polygon) < kSmallestPatch * scratch.faceLength) continue;
       const auto cut = CutPatchAlong(scratch.polygon, a, b);
       if (!cut) continue;
-      const std::array<int32_t, 2> halves = Cut(leaves[i], *cut);
+      const std::vector<int32_t> halves = Halve(leaves[i], *cut);
       leaves[i] = halves[0];
       leaves.push_back(halves[1]);
       break;
     }
   }
-  if (leaves.size() > 1) return leaves;
-  const std::array<int32_t, 2> halves = Split(id);
-  return {halves[0], halves[1]};
+  return leaves.size() > 1 ? leaves : Split(id);
 }
 
 Vec2d LeafMesh::Implementation::PlaceOn(const Border& border, const LeafBorderPlace& place) const {
@@ -92,39 +101,66 @@ Vec2d LeafMesh::Implementation::PlaceOn(const Border& border, const LeafBorderPl
   return position(place.from) * (1 - place.fraction) + position(place.to) * place.fraction;
 }
 
-// Splits a patch whose border is in `scratch`.
-std::array<int32_t, 2> LeafMesh::Implementation::Cut(int32_t id,
+// Splits a patch whose border is in `scratch` along one line.
+std::vector<int32_t> LeafMesh::Implementation::Halve(int32_t id,
                                                      const std::array<PatchCutEnd, 2>& cut) {
-  Patch& patch = patches[size_t(id)];
+  const Patch& patch = patches[size_t(id)];
   const int32_t from = CutVertex(patch, scratch, cut[0]);
   const int32_t to = CutVertex(patch, scratch, cut[1]);
+  const int32_t line = 3 + int32_t(patches.size());
+  return MakeParts(id, {patch.meshFace, DrawLine(patch.meshFace, from, to, line)});
+}
 
-  // Draw the line as an edge of the half-edge mesh.
+// Splits a triangle whose border is in `scratch`: lines from middle to middle cut its corners off.
+std::vector<int32_t> LeafMesh::Implementation::Quarter(int32_t id,
+                                                       const std::array<PatchCutEnd, 3>& middles) {
+  const Patch& patch = patches[size_t(id)];
+  std::array<int32_t, 3> vertices;
+  for (size_t side = 0; side < 3; ++side) {
+    vertices[side] = CutVertex(patch, scratch, middles[side]);
+  }
+  std::vector<int32_t> meshFaces = {patch.meshFace};
+  for (size_t side = 0; side < 3; ++side) {
+    const int32_t line = 3 + int32_t(patches.size() + side);
+    const int32_t before = vertices[(side + 2) % 3];
+    meshFaces.push_back(DrawLine(patch.meshFace, vertices[side], before, line));
+  }
+  return MakeParts(id, meshFaces);
+}
+
+// Draws a line across a polygon of the half-edge mesh; what lies left of it becomes a polygon of
+// its own.
+int32_t LeafMesh::Implementation::DrawLine(int32_t meshFace, int32_t from, int32_t to,
+                                           int32_t line) {
   HalfedgeHandle intoFrom, outOfTo;
-  for (const HalfedgeHandle halfedge : halfedges.fh_range(FaceHandle(patch.meshFace))) {
+  for (const HalfedgeHandle halfedge : halfedges.fh_range(FaceHandle(meshFace))) {
     if (halfedges.to_vertex_handle(halfedge).idx() == from) intoFrom = halfedge;
     if (halfedges.from_vertex_handle(halfedge).idx() == to) outOfTo = halfedge;
   }
-  const HalfedgeHandle line = halfedges.insert_edge(intoFrom, outOfTo);
-
-  // The two polygons are the two halves.
-  const int32_t first = int32_t(patches.size());
-  const int32_t meshFaces[2] = {patch.meshFace, halfedges.face_handle(line).idx()};
-  lineOfEdge.push_back(3 + first);
+  const HalfedgeHandle drawn = halfedges.insert_edge(intoFrom, outOfTo);
+  lineOfEdge.push_back(line);
   patchOfMeshFace.push_back(-1);
-  for (int32_t half = 0; half < 2; ++half) {
-    Patch& child = patches.emplace_back();
-    child.face = patch.face;
-    child.side = patch.side;
-    child.meshFace = meshFaces[half];
-    BorderOf(child, &scratch);
-    child.corners = CornersOf(scratch);
-    patchOfMeshFace[size_t(child.meshFace)] = first + half;
-  }
-  patch.firstChild = first;
+  return halfedges.face_handle(drawn).idx();
+}
+
+// The polygons that lines have cut a patch into are its parts.
+std::vector<int32_t> LeafMesh::Implementation::MakeParts(int32_t id,
+                                                         const std::vector<int32_t>& meshFaces) {
+  Patch& patch = patches[size_t(id)];
+  patch.firstPart = int32_t(patches.size());
+  patch.partCount = int32_t(meshFaces.size());
   patch.meshFace = -1;
   patch.triangles = {};
-  return {first, first + 1};
+  for (const int32_t meshFace : meshFaces) {
+    patchOfMeshFace[size_t(meshFace)] = int32_t(patches.size());
+    Patch& part = patches.emplace_back();
+    part.face = patch.face;
+    part.side = patch.side;
+    part.meshFace = meshFace;
+    BorderOf(part, &scratch);
+    part.corners = CornersOf(scratch);
+  }
+  return Parts(id);
 }
 
 // Makes the patch of a whole face a triangle of the half-edge mesh, with the points already on its
@@ -275,16 +311,14 @@ LeafMesh::~LeafMesh() = default;
 int32_t LeafMesh::FacePatch(int32_t face, Side side) {
   return implementation_->FacePatch(face, side);
 }
-std::array<int32_t, 2> LeafMesh::Split(int32_t patch) { return implementation_->Split(patch); }
+std::vector<int32_t> LeafMesh::Split(int32_t patch) { return implementation_->Split(patch); }
 std::vector<int32_t> LeafMesh::SplitAlong(int32_t patch, const std::array<LeafLine, 2>& lines) {
   return implementation_->SplitAlong(patch, lines);
 }
 int32_t LeafMesh::FindFacePatch(int32_t face, Side side) const {
   return implementation_->facePatch[size_t(face) * 2 + side];
 }
-int32_t LeafMesh::FirstHalf(int32_t patch) const {
-  return implementation_->patches[size_t(patch)].firstChild;
-}
+std::vector<int32_t> LeafMesh::Parts(int32_t patch) const { return implementation_->Parts(patch); }
 int32_t LeafMesh::PatchCount() const { return int32_t(implementation_->patches.size()); }
 int32_t LeafMesh::PatchFace(int32_t patch) const {
   return implementation_->patches[size_t(patch)].face;

@@ -1,5 +1,5 @@
-// The leaves below the input triangles: patches split by lines (thesis 4.4), and the triangles
-// drawn in the end.
+// The leaves below the input triangles: patches split by lines (thesis 4.4) or regularly (3.4.2),
+// and the triangles drawn in the end.
 #pragma once
 
 #include <array>
@@ -11,9 +11,17 @@
 
 namespace lambert {
 
+/// How a patch is split: in halves across its minimum-area rectangle (thesis 4.4.2), or into four
+/// triangles at the middles of its sides (3.4.2).
+enum class PatchRefinement : uint8_t { Rectangle, Quadtree };
+/// "rectangle" or "quadtree".
+inline const char* RefinementName(PatchRefinement refinement) {
+  return refinement == PatchRefinement::Quadtree ? "quadtree" : "rectangle";
+}
+
 struct LeafMeshOptions {
-  /// A splitting line moves to a vertex within this fraction of the rectangle's longer side. [0,
-  /// 0.5)
+  PatchRefinement refinement = PatchRefinement::Rectangle;
+  /// A line across a rectangle moves to a vertex within this fraction of its longer side, [0, 0.5).
   float snapTolerance = 0.15f;
 };
 
@@ -58,19 +66,19 @@ class LeafMesh {
   /// The same where it has been made; -1 else.
   int32_t FindFacePatch(int32_t face, Side side) const;
   /// Splits a leaf patch across the longer side of its minimum-area rectangle, at its middle,
-  /// snapped to vertices where they are near (4.4.2); returns the two halves, which become leaves
-  /// in its place. Both have area, also in slivers and in triangles without any. Of a patch that is
-  /// split already it returns the halves. Throws Error where the patch is a 1e-12th of its face
-  /// across.
-  std::array<int32_t, 2> Split(int32_t patch);
+  /// snapped to vertices where they are near (4.4.2); or regularly, a triangle into four (3.4.2).
+  /// Returns the parts, which become leaves in its place. All have area, also in slivers and in
+  /// triangles without any. Of a patch that is split already it returns the parts. Throws Error
+  /// where the patch is a 1e-10th of its face across.
+  std::vector<int32_t> Split(int32_t patch);
 
   /// Splits a leaf patch along two lines that do not cross within it: into three, or two where one
   /// of the lines only touches it; where both do, as Split. Returns the leaves in its place.
   /// Throws Error where an end of a line names a vertex that is not on the patch's border.
   std::vector<int32_t> SplitAlong(int32_t patch, const std::array<LeafLine, 2>& lines);
 
-  /// The first half of a split patch, the other follows it; -1 for a leaf.
-  int32_t FirstHalf(int32_t patch) const;
+  /// What a patch has been split into, in a row; empty for a leaf.
+  std::vector<int32_t> Parts(int32_t patch) const;
 
   /// Patches so far, split ones included; they are numbered from 0 and keep their numbers.
   int32_t PatchCount() const;

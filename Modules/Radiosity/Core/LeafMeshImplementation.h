@@ -24,8 +24,9 @@ struct LeafMesh::Implementation {
   struct Patch {
     int32_t face = 0;
     Side side = kFront;
-    int32_t meshFace = -1;    // Polygon of a leaf; -1 until the input face is split.
-    int32_t firstChild = -1;  // The second child follows it; -1 for a leaf.
+    int32_t meshFace = -1;   // Polygon of a leaf; -1 until the input face is split.
+    int32_t firstPart = -1;  // The others follow it; -1 for a leaf.
+    int32_t partCount = 0;
     std::vector<Vec3f> corners;
     Triangles triangles;  // Of a leaf, by vertex numbers; empty when its border has changed.
   };
@@ -56,16 +57,20 @@ struct LeafMesh::Implementation {
 
   // Patches.
   int32_t FacePatch(int32_t face, Side side);
-  std::array<int32_t, 2> Split(int32_t patch);
+  std::vector<int32_t> Split(int32_t patch);
   std::vector<int32_t> SplitAlong(int32_t patch, const std::array<LeafLine, 2>& lines);
+  std::vector<int32_t> Parts(int32_t patch) const;
   bool IsSplit(int32_t face, Side side) const {
     const int32_t patch = facePatch[size_t(face) * 2 + side];
-    return patch >= 0 && patches[size_t(patch)].firstChild >= 0;
+    return patch >= 0 && patches[size_t(patch)].firstPart >= 0;
   }
 
   // The half-edge mesh.
   void AddIsland(int32_t patch);
-  std::array<int32_t, 2> Cut(int32_t patch, const std::array<PatchCutEnd, 2>& cut);
+  std::vector<int32_t> Halve(int32_t patch, const std::array<PatchCutEnd, 2>& cut);
+  std::vector<int32_t> Quarter(int32_t patch, const std::array<PatchCutEnd, 3>& middles);
+  int32_t DrawLine(int32_t meshFace, int32_t from, int32_t to, int32_t line);
+  std::vector<int32_t> MakeParts(int32_t patch, const std::vector<int32_t>& meshFaces);
   int32_t AddMeshVertex(const Vec3d& weights, int32_t number);
   void SplitMeshEdge(int32_t edge, int32_t vertex);
   void SplitRim(int32_t edge, EdgeUse* use, int32_t index);

@@ -149,9 +149,12 @@ size_t LeafMesh::Implementation::AppendTriangles(int32_t face, Side side, bool h
 
 size_t LeafMesh::Implementation::AppendLeaves(int32_t id, LeafTriangle* out) const {
   const Patch& patch = patches[size_t(id)];
-  if (patch.firstChild >= 0) {
-    const size_t count = AppendLeaves(patch.firstChild, out);
-    return count + AppendLeaves(patch.firstChild + 1, out ? out + count : out);
+  if (patch.firstPart >= 0) {
+    size_t count = 0;
+    for (int32_t part = 0; part < patch.partCount; ++part) {
+      count += AppendLeaves(patch.firstPart + part, out ? out + count : out);
+    }
+    return count;
   }
   if (out) {
     for (const auto& vertices : patch.triangles) *out++ = {vertices, patch.face, patch.side, id};

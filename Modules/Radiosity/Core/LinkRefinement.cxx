@@ -4,7 +4,6 @@
 
 #include "Common/Core/Parallel.h"
 #include "Radiosity/Core/LightExchange.h"
-#include "Radiosity/Core/RefinementOracle.h"
 #include "Radiosity/Core/Transfer.h"
 
 namespace lambert {
@@ -36,9 +35,13 @@ uint8_t Quantize(float visibility) {
 /// Looks at pairs of elements without changing anything; safe from several threads.
 class Judge {
  public:
-  Judge(double threshold, const ElementHierarchy& hierarchy, const ElementLight& light,
-        const RayScene& rayScene)
-      : threshold_(float(threshold)), hierarchy_(hierarchy), light_(light), rayScene_(rayScene) {}
+  Judge(double threshold, const RefinementOracle& oracle, const ElementHierarchy& hierarchy,
+        const ElementLight& light, const RayScene& rayScene)
+      : threshold_(float(threshold)),
+        oracle_(oracle),
+        hierarchy_(hierarchy),
+        light_(light),
+        rayScene_(rayScene) {}
 
   /// Whether a link as it stands is in error beyond the threshold, or must be looked at for the
   /// first time.
@@ -49,10 +52,10 @@ class Judge {
     const Element& source = hierarchy_[link.source];
     const Element& target = hierarchy_[receiver];
     if (!CanSplit(source) && !CanSplit(target)) return false;
-    const TransferError error = EstimateError(BoundPair(hierarchy_, source, target), radiosity,
-                                              light_.variation[size_t(link.source)],
-                                              float(link.visibility) / 255, source, target);
-    return error.Sum() * target.area > threshold_;
+    LinkEvidence evidence{source, target, BoundPair(hierarchy_, source, target), radiosity,
+                          light_.variation[size_t(link.source)]};
+    Consider(link, &evidence);
+    return this->Exceeds(oracle_.Estimate(evidence), target);
   }
 
   Judgement operator()(const Pair& pair) const {
@@ -68,19 +71,21 @@ class Judge {
     if (bound.apart) return judgement;
     judgement.verdict = Verdict::Keep;
     if (!(radiosity > 0)) return judgement;
-    const float variation = light_.variation[size_t(pair.source)];
-    TransferError error = EstimateError(bound, radiosity, variation, -1, source, receiver);
-    if (error.Sum() * receiver.area > threshold_) {
+    LinkEvidence evidence{source, receiver, bound, radiosity,
+                          light_.variation[size_t(pair.source)]};
+    const TransferError error = oracle_.Estimate(evidence);
+    if (this->Exceeds(error, receiver)) {
       judgement.verdict = Choose(error, source, receiver);
       if (judgement.verdict != Verdict::KeepAtFloor) return judgement;
     }
 
     // Then visibility, as much of it as the transfer is worth.
+    const bool isFixed = oracle_.HasFixedSamples();
     const bool thorough =
-        bound.formFactor * radiosity * receiver.area > kThoroughAbove * threshold_;
+        !isFixed && bound.formFactor * radiosity * receiver.area > kThoroughAbove * threshold_;
     TransferEstimate estimate = EstimateTransfer(hierarchy_, rayScene_, source, receiver, thorough);
     judgement.rays = int32_t(estimate.rays);
-    if (!thorough && estimate.visibility > 0 && estimate.visibility < 1) {
+    if (!isFixed && !thorough && estimate.visibility > 0 && estimate.visibility < 1) {
       estimate = EstimateTransfer(hierarchy_, rayScene_, source, receiver, true);
       judgement.rays += int32_t(estimate.rays);
     }
@@ -88,16 +93,33 @@ class Judge {
     judgement.link.visibility = Quantize(estimate.visibility);
     judgement.link.isSampled = true;
     if (judgement.verdict == Verdict::Keep) {
-      error = EstimateError(bound, radiosity, variation, float(judgement.link.visibility) / 255,
-                            source, receiver);
-      if (error.Sum() * receiver.area > threshold_) {
-        judgement.verdict = Choose(error, source, receiver);
-      }
+      judgement.verdict = this->JudgeSampled(evidence, &judgement.link);
     }
     return judgement;
   }
 
  private:
+  /// Of a link that has its samples; none where all of it is blocked for certain (9.2.2).
+  Verdict JudgeSampled(LinkEvidence evidence, Link* link) const {
+    const Element &source = evidence.source, &receiver = evidence.receiver;
+    Consider(*link, &evidence);
+    TransferError error = oracle_.Estimate(evidence);
+    if (this->Exceeds(error, receiver) && oracle_.IsCertain(evidence)) {
+      if (evidence.visibility <= 0) return Verdict::Drop;
+      evidence.isCertain = link->isCertain = true;
+      error = oracle_.Estimate(evidence);
+    }
+    return this->Exceeds(error, receiver) ? Choose(error, source, receiver) : Verdict::Keep;
+  }
+
+  static void Consider(const Link& link, LinkEvidence* evidence) {
+    evidence->visibility = float(link.visibility) / 255;
+    evidence->transfer = link.transfer;
+    evidence->isCertain = link.isCertain;
+  }
+  bool Exceeds(const TransferError& error, const Element& receiver) const {
+    return error.Sum() * receiver.area > threshold_;
+  }
   bool CanSplit(const Element& element) const { return !element.IsLeaf() || element.canSplit; }
 
   /// An element and itself: nothing within a plane, all pairs of its children where its own light
@@ -128,6 +150,7 @@ class Judge {
   }
 
   const float threshold_;
+  const RefinementOracle& oracle_;
   const ElementHierarchy& hierarchy_;
   const ElementLight& light_;
   const RayScene& rayScene_;
@@ -267,9 +290,10 @@ void MakeInitialLinks(const ElementHierarchy& hierarchy, LinkNetwork* network) {
   }
 }
 
-bool RefineLinks(double threshold, const RayScene& rayScene, ElementHierarchy* hierarchy,
-                 ElementLight* light, LinkNetwork* network, const ProgressCallback& progress) {
-  const Judge judge(threshold, *hierarchy, *light, rayScene);
+bool RefineLinks(double threshold, const RefinementOracle& oracle, const RayScene& rayScene,
+                 ElementHierarchy* hierarchy, ElementLight* light, LinkNetwork* network,
+                 const ProgressCallback& progress) {
+  const Judge judge(threshold, oracle, *hierarchy, *light, rayScene);
   network->linksAtFloor = 0;
   const TakenLinks taken = TakeLinksInError(judge, network);
   std::vector<Pair> pairs = taken.Pairs();

@@ -8,6 +8,7 @@
 #include "Common/Core/Progress.h"
 #include "Radiosity/Core/Element.h"
 #include "Radiosity/Core/ElementHierarchy.h"
+#include "Radiosity/Core/RefinementOracle.h"
 #include "Visibility/Core/RayScene.h"
 
 namespace lambert {
@@ -38,11 +39,12 @@ struct LinkNetwork {
 /// The first links: the scene with itself, black emitters and lights to the scene (4.5.1).
 void MakeInitialLinks(const ElementHierarchy& hierarchy, LinkNetwork* network);
 
-/// Refines every link whose error exceeds `threshold` (W), splitting the end that contributes most
-/// to it, until none does or nothing can be split. Returns false, with the links as they were,
-/// where `progress` asked to stop.
-bool RefineLinks(double threshold, const RayScene& rayScene, ElementHierarchy* hierarchy,
-                 ElementLight* light, LinkNetwork* network, const ProgressCallback& progress = {});
+/// Refines every link whose error, by `oracle`, exceeds `threshold` (W), splitting the end that
+/// contributes most to it, until none does or nothing can be split. Returns false, with the links
+/// as they were, where `progress` asked to stop.
+bool RefineLinks(double threshold, const RefinementOracle& oracle, const RayScene& rayScene,
+                 ElementHierarchy* hierarchy, ElementLight* light, LinkNetwork* network,
+                 const ProgressCallback& progress = {});
 
 /// Gives the children of each of `parents` links of their own in place of those of the parent's
 /// links that bring more than `part` of its light: for children of which some are hidden and some

@@ -12,8 +12,8 @@ constexpr double kTieTolerance =
     1e-4;  // Areas this near are equal: far above rounding, far below sight.
 constexpr double kFlatness = 1e-9;  // Height over length below which a triangle has no usable area.
 
-// Relative to the rectangle's longer side: cuts keep this far from vertices, so that no edge ends
-// up shorter.
+// Relative to the rectangle's longer side, or the side that is cut: cuts keep this far from
+// vertices, so that no edge ends up shorter.
 constexpr double kLeastSnap = 1e-4;
 constexpr double kLeastLean = 1e-3;
 // A line passes through a vertex that is this near, relative to the border's extent.
@@ -75,6 +75,11 @@ struct Chain {
 };
 
 }  // namespace
+
+bool IsTriangle(const std::vector<PatchBorderVertex>& border) {
+  return std::count_if(border.begin(), border.end(),
+                       [](const PatchBorderVertex& vertex) { return vertex.isCorner; }) == 3;
+}
 
 double PatchExtent(const std::vector<PatchBorderVertex>& border) {
   double extent = 0;
@@ -159,6 +164,32 @@ std::array<PatchCutEnd, 2> CutPatch(const std::vector<PatchBorderVertex>& border
   const int vertex = chains[moved].Nearest(place[kept], mostLean(ends[kept], straight));
   ends[moved] = vertex >= 0 ? PatchCutEnd{vertex, -1, 0} : straight;
   return ends;
+}
+
+std::array<PatchCutEnd, 3> SideMiddles(const std::vector<PatchBorderVertex>& border) {
+  std::array<PatchCutEnd, 3> middles;
+  const int count = int(border.size());
+  int corner = 0;
+  while (!border[size_t(corner)].isCorner) ++corner;
+  for (PatchCutEnd& middle : middles) {
+    // Measure the vertices of the side from its first corner.
+    const Vec2d origin = border[size_t(corner)].position;
+    Chain side;
+    std::vector<double> distance(border.size(), 0);
+    side.along = &distance;
+    side.vertices = {corner};
+    do {
+      corner = (corner + 1) % count;
+      const Vec2d offset = border[size_t(corner)].position - origin;
+      distance[size_t(corner)] = std::hypot(offset.x, offset.y);
+      side.vertices.push_back(corner);
+    } while (!border[size_t(corner)].isCorner);
+
+    const double length = distance[size_t(corner)];
+    const int vertex = side.Nearest(length / 2, kLeastSnap * length);
+    middle = vertex >= 0 ? PatchCutEnd{vertex, -1, 0} : side.Crossing(length / 2);
+  }
+  return middles;
 }
 
 std::optional<std::array<PatchCutEnd, 2>> CutPatchAlong(

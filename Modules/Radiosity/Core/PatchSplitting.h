@@ -1,4 +1,5 @@
-// Where a patch is cut in two: across the longer side of its minimum-area rectangle (thesis 4.4.2).
+// Where a patch is cut: across the longer side of its minimum-area rectangle (thesis 4.4.2), or at
+// the middles of its sides (3.4.2).
 #pragma once
 
 #include <array>
@@ -32,6 +33,9 @@ struct PatchCutEnd {
   double fraction = 0;
 };
 
+/// Whether the border has three corners, t-vertices not counted.
+bool IsTriangle(const std::vector<PatchBorderVertex>& border);
+
 /// Largest distance along an axis of the plane from the first vertex to any other.
 double PatchExtent(const std::vector<PatchBorderVertex>& border);
 
@@ -46,6 +50,10 @@ PatchRectangle MinimumPatchRectangle(const std::vector<PatchBorderVertex>& borde
 /// of the polygon and apart from every vertex that they are not.
 std::array<PatchCutEnd, 2> CutPatch(const std::vector<PatchBorderVertex>& border,
                                     double snapTolerance);
+
+/// Middles of the three sides of a triangular border, from its first corner on: where regular
+/// refinement cuts it. A vertex within 1e-4 of the side's length of its middle is taken for it.
+std::array<PatchCutEnd, 3> SideMiddles(const std::vector<PatchBorderVertex>& border);
 
 /// Ends of the line through `a` and `b` in the same border; none where the border does not lie on
 /// both sides of it. Vertices within a thousandth of the border's extent of the line lie on it.

@@ -34,9 +34,8 @@ struct LeafIndex {
     const LeafMesh& leaves = hierarchy.Leaves();
     ofPatch.resize(size_t(leaves.PatchCount()), -1);
     for (int32_t patch = 0; patch < leaves.PatchCount(); ++patch) {
-      const int32_t half = leaves.FirstHalf(patch);
-      if (half < 0 || ofPatch[size_t(patch)] < 0) continue;
-      ofPatch[size_t(half)] = ofPatch[size_t(half) + 1] = ofPatch[size_t(patch)];
+      if (ofPatch[size_t(patch)] < 0) continue;
+      for (const int32_t part : leaves.Parts(patch)) ofPatch[size_t(part)] = ofPatch[size_t(patch)];
     }
   }
 

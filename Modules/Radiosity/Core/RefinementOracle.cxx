@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "Radiosity/Core/Shafts.h"
 #include "Radiosity/Core/Transfer.h"
 
 namespace lambert {
@@ -138,27 +139,114 @@ PairBound BoundPair(const ElementHierarchy& hierarchy, const Element& source,
   return bound;
 }
 
-TransferError EstimateError(const PairBound& bound, float radiosity, float variation,
-                            float visibility, const Element& source, const Element& receiver) {
-  // Shape and distance.
-  TransferError error;
-  const float transfer = bound.formFactor * radiosity;
-  const float seen = visibility < 0 ? 1.f : std::max(visibility, kDoubtBlocked);
-  error.byReceiver = transfer * bound.receiverSpread * seen;
-  error.bySource =
-      (transfer * bound.sourceSpread + bound.formFactor * variation * bound.nearness) * seen;
+namespace {
 
-  // Visibility: the larger end is what samples miss most of.
-  if (visibility >= 0) {
-    const float near = bound.nearness * bound.nearness;
-    const float doubt = visibility <= 0 ? kDoubtBlocked + (kDoubtBlockedNear - kDoubtBlocked) * near
-                        : visibility >= 1 ? kDoubtClear + (kDoubtClearNear - kDoubtClear) * near
-                                          : kDoubtPartial;
-    const bool splitSource =
-        source.radius > 2 * receiver.radius && source.kind != ElementKind::Light;
-    (splitSource ? error.bySource : error.byReceiver) += transfer * doubt;
+class DoubtOracle : public RefinementOracle {
+ public:
+  TransferError Estimate(const LinkEvidence& evidence) const override {
+    // Shape and distance.
+    const auto& [source, receiver, bound, radiosity, variation, visibility, sampled, isCertain] =
+        evidence;
+    TransferError error;
+    const float transfer = bound.formFactor * radiosity;
+    const float seen = visibility < 0 ? 1.f : std::max(visibility, kDoubtBlocked);
+    error.byReceiver = transfer * bound.receiverSpread * seen;
+    error.bySource =
+        (transfer * bound.sourceSpread + bound.formFactor * variation * bound.nearness) * seen;
+
+    // Visibility: the larger end is what samples miss most of.
+    if (visibility >= 0 && !isCertain) {
+      const float near = bound.nearness * bound.nearness;
+      const float doubt = visibility <= 0
+                              ? kDoubtBlocked + (kDoubtBlockedNear - kDoubtBlocked) * near
+                          : visibility >= 1 ? kDoubtClear + (kDoubtClearNear - kDoubtClear) * near
+                                            : kDoubtPartial;
+      const bool splitSource =
+          source.radius > 2 * receiver.radius && source.kind != ElementKind::Light;
+      (splitSource ? error.bySource : error.byReceiver) += transfer * doubt;
+    }
+    return error;
   }
-  return error;
+};
+
+class GeometricOracle : public DoubtOracle {
+ public:
+  TransferError Estimate(const LinkEvidence& evidence) const override {
+    LinkEvidence unseen = evidence;
+    unseen.visibility = -1;
+    return DoubtOracle::Estimate(unseen);
+  }
+};
+
+class BfaOracle : public RefinementOracle {
+ public:
+  TransferError Estimate(const LinkEvidence& evidence) const override {
+    // Nothing is known before the samples.
+    TransferError error;
+    if (evidence.visibility < 0) return error;
+    const Element &source = evidence.source, &receiver = evidence.receiver;
+    const float formFactor = SampledFormFactor(evidence);
+
+    // Of the larger end as seen from the other (3.2.2).
+    const Vec3f direction = Normalize(receiver.frame.center - source.frame.center);
+    const bool isSourceLarger =
+        source.kind != ElementKind::Light &&
+        ProjectedArea(source, direction) > ProjectedArea(receiver, -direction);
+    (isSourceLarger ? error.bySource : error.byReceiver) = formFactor * evidence.radiosity;
+    return error;
+  }
+  bool HasFixedSamples() const override { return true; }
+
+ private:
+  // Of bent clusters what a facet that faces the light receives: light may arrive from where their
+  // normals cancel. Samples of volumes mostly turn away from each other and tell of nothing.
+  static float SampledFormFactor(const LinkEvidence& evidence) {
+    const Element& receiver = evidence.receiver;
+    if (evidence.source.IsVolume() || receiver.IsVolume()) return evidence.bound.formFactor;
+    return receiver.coneAngle < kPlanarCone ? std::max(0.f, Dot(receiver.axis, evidence.transfer))
+                                            : Length(evidence.transfer);
+  }
+  static float ProjectedArea(const Element& element, const Vec3f& direction) {
+    const float facing = FacingFraction(element, direction);
+    return element.area * (element.coneAngle < kPlanarCone ? facing : std::max(facing, 0.25f));
+  }
+};
+
+class VisibilityOracle : public DoubtOracle {
+ public:
+  VisibilityOracle(const ElementHierarchy& hierarchy, const RayScene& rayScene)
+      : shafts_(hierarchy, rayScene) {}
+  bool IsCertain(const LinkEvidence& evidence) const override {
+    if (evidence.visibility >= 1) return shafts_.IsClear(evidence.source, evidence.receiver);
+    if (evidence.visibility <= 0) return shafts_.IsBlocked(evidence.source, evidence.receiver);
+    return false;
+  }
+
+ private:
+  const Shafts shafts_;
+};
+
+}  // namespace
+
+const char* OracleName(OracleKind kind) {
+  constexpr const char* kNames[] = {"doubt", "geometric", "bfa", "visibility"};
+  return kNames[size_t(kind)];
+}
+
+std::unique_ptr<RefinementOracle> MakeRefinementOracle(OracleKind kind,
+                                                       const ElementHierarchy& hierarchy,
+                                                       const RayScene& rayScene) {
+  switch (kind) {
+    case OracleKind::Geometric:
+      return std::make_unique<GeometricOracle>();
+    case OracleKind::Bfa:
+      return std::make_unique<BfaOracle>();
+    case OracleKind::Visibility:
+      return std::make_unique<VisibilityOracle>(hierarchy, rayScene);
+    case OracleKind::Doubt:
+      break;
+  }
+  return std::make_unique<DoubtOracle>();
 }
 
 }  // namespace lambert

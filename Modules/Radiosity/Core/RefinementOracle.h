@@ -1,9 +1,13 @@
-// How wrong a link may be, from geometry and visibility, never from the spread of its own samples:
-// that would keep the links that miss what they should see.
+// How wrong a link may be: by default from geometry and visibility, never from the spread of its
+// own samples: that would keep the links that miss what they should see.
 #pragma once
+
+#include <cstdint>
+#include <memory>
 
 #include "Radiosity/Core/Element.h"
 #include "Radiosity/Core/ElementHierarchy.h"
+#include "Visibility/Core/RayScene.h"
 
 namespace lambert {
 
@@ -28,9 +32,42 @@ struct TransferError {
   float Sum() const { return byReceiver + bySource; }
 };
 
-/// `radiosity`: largest band of the source; `variation`: standard deviation of it within the
-/// source, W/m2. `visibility`: sampled, in [0, 1], or negative where it is not known yet.
-TransferError EstimateError(const PairBound& bound, float radiosity, float variation,
-                            float visibility, const Element& source, const Element& receiver);
+/// What is known of a link when it is judged.
+struct LinkEvidence {
+  const Element& source;
+  const Element& receiver;
+  PairBound bound;
+  float radiosity = 0;     ///< of the source, its largest band, W/m2; of lights as in ElementLight
+  float variation = 0;     ///< standard deviation of it within the source, W/m2
+  float visibility = -1;   ///< sampled, in [0, 1]; negative where it is not known yet
+  Vec3f transfer{};        ///< sampled (4.23), visibility included, per unit radiosity
+  bool isCertain = false;  ///< the visibility holds for all pairs of points, not just the sampled
+};
+
+/// A strategy that judges links: how wrong each is held to be. Kept by many threads at once.
+class RefinementOracle {
+ public:
+  virtual ~RefinementOracle() = default;
+  virtual TransferError Estimate(const LinkEvidence& evidence) const = 0;
+  /// Whether what samples have found, all clear or all blocked, is certain. Asked only of links
+  /// that would be refined otherwise.
+  virtual bool IsCertain(const LinkEvidence&) const { return false; }
+  /// Whether every transfer is sampled alike, however much light it carries.
+  virtual bool HasFixedSamples() const { return false; }
+};
+
+/// Doubt: geometry bounds the error, and visibility is in doubt however many samples agree.
+/// Geometric: the same, with nothing said of visibility. Bfa: radiosity x sampled form factor x
+/// area, of a fixed count of sample pairs (thesis 4.5.3). Visibility: as Doubt, but without doubt
+/// where a transfer is known to be clear; known to be blocked it is no link (9.2.2).
+enum class OracleKind : uint8_t { Doubt, Geometric, Bfa, Visibility };
+
+/// "doubt", "geometric", "bfa", "visibility".
+const char* OracleName(OracleKind kind);
+
+/// Keeps references to both.
+std::unique_ptr<RefinementOracle> MakeRefinementOracle(OracleKind kind,
+                                                       const ElementHierarchy& hierarchy,
+                                                       const RayScene& rayScene);
 
 }  // namespace lambert

@@ -50,7 +50,8 @@ TEST(LeafMesh, RightTriangleIsCutThroughItsApex) {
     EXPECT_EQ(leaves.PatchFace(half), 0);
   }
   EXPECT_EQ(leaves.Split(0), halves);  // Of a split patch they are the same again.
-  EXPECT_EQ(leaves.FirstHalf(0), halves[0]);
+  EXPECT_EQ(leaves.Parts(0), halves);
+  EXPECT_TRUE(leaves.Parts(halves[0]).empty());
   ASSERT_EQ(leaves.Vertices().size(), 1u);
   EXPECT_EQ(leaves.Vertices()[0].position, Vec3f(1, 0, 0));
 }
@@ -160,6 +161,98 @@ TEST(LeafMesh, RandomStripsKeepItWatertight) {
       open.push_back(halves[1]);
     }
     ExpectSoundOutput(mesh, Output(mesh, &leaves));
+  }
+}
+
+LeafMeshOptions Regular() {
+  LeafMeshOptions options;
+  options.refinement = PatchRefinement::Quadtree;
+  return options;
+}
+
+TEST(LeafMesh, RegularRefinementMakesFourOfTheSameShape) {
+  const TriangleMesh mesh = MakeMesh({{0, 0, 0}, {4, 0, 0}, {1, 2, 0}}, {{0, 1, 2}});
+  LeafMesh leaves(mesh, Regular());
+  std::vector<int32_t> parts = leaves.Split(leaves.FacePatch(0, kFront));
+  ASSERT_EQ(parts.size(), 4u);
+  for (const int32_t part : leaves.Split(parts[0])) parts.push_back(part);
+  EXPECT_EQ(leaves.Split(0), leaves.Parts(0));  // Of a split patch they are the same again.
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const std::vector<Vec3f>& corners = leaves.Corners(parts[i]);
+    ASSERT_EQ(corners.size(), 3u);
+    EXPECT_FLOAT_EQ(float(PolygonArea(corners)), i < 4 ? 1.f : 0.25f);
+    EXPECT_FLOAT_EQ(LongestEdge(corners), i < 4 ? 2.f : 1.f);
+  }
+  EXPECT_EQ(leaves.Vertices().size(), 6u);
+  ExpectSoundOutput(mesh, Output(mesh, &leaves));
+}
+
+TEST(LeafMesh, RegularRefinementStaysWatertight) {
+  for (uint32_t seed = 1; seed <= 4; ++seed) {
+    for (const TriangleMesh& mesh : {Grid(4, true, seed), Fan(5), Slivers(5)}) {
+      LeafMesh leaves(mesh, Regular());
+      SplitAtRandom(mesh, 50, 0.05f, seed, &leaves);
+      ExpectSoundOutput(mesh, Output(mesh, &leaves));
+    }
+  }
+}
+
+TEST(LeafMesh, RegularRefinementHalvesWhatALineHasLeft) {
+  // A strip across two sides leaves a quadrilateral, which has no four parts of its shape.
+  const TriangleMesh mesh = MakeMesh({{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  LeafMesh leaves(mesh, Regular());
+  const LeafLine first = {LeafBorderPlace{1, 2, 0.25}, LeafBorderPlace{2, 0, 0.5}};
+  const LeafLine second = {LeafBorderPlace{1, 2, 0.28}, LeafBorderPlace{2, 0, 0.47}};
+  for (const int32_t part : leaves.SplitAlong(leaves.FacePatch(0, kFront), {first, second})) {
+    const bool isTriangle = leaves.Corners(part).size() == 3;
+    EXPECT_EQ(leaves.Split(part).size(), isTriangle ? 4u : 2u);
+  }
+  ExpectSoundOutput(mesh, Output(mesh, &leaves));
+}
+
+// Triangles that the edge of a shadow at 45 degrees to 50 slivers, 50 : 1, asks for, where patches
+// are split until those it crosses have no more than `area` together; the floor is 2 x 1.
+int64_t TrianglesAlongAShadow(const LeafMeshOptions& options, double area) {
+  std::vector<Vec3f> positions;
+  std::vector<std::array<int32_t, 3>> triangles;
+  for (int i = 0; i <= 25; ++i) {
+    for (const float x : {0.f, 2.f}) positions.push_back({x, 0.04f * float(i), 0});
+  }
+  for (int32_t i = 0; i < 50; i += 2) {
+    triangles.push_back({i, i + 1, i + 3});
+    triangles.push_back({i, i + 3, i + 2});
+  }
+  const TriangleMesh mesh = MakeMesh(positions, triangles);
+  LeafMesh leaves(mesh, options);
+  const auto isCrossed = [&](int32_t patch) {
+    int before = 0, behind = 0;
+    for (const Vec3f& p : leaves.Corners(patch)) ++(p.x - p.y < 0.5f ? before : behind);
+    return before > 0 && behind > 0;
+  };
+
+  // The largest first.
+  std::set<std::pair<double, int32_t>> crossed;
+  double left = 0;
+  const auto add = [&](int32_t patch) {
+    if (!isCrossed(patch)) return;
+    const double own = PolygonArea(leaves.Corners(patch));
+    crossed.insert({own, patch});
+    left += own;
+  };
+  for (int32_t face = 0; face < 50; ++face) add(leaves.FacePatch(face, kFront));
+  while (left > area) {
+    const auto [own, patch] = *crossed.rbegin();
+    crossed.erase({own, patch});
+    left -= own;
+    for (const int32_t part : leaves.Split(patch)) add(part);
+  }
+  return int64_t(leaves.Triangulate(std::vector<uint8_t>(50, 1)).size());
+}
+
+TEST(LeafMesh, AShadowAcrossSliversTakesAThirdOfTheTriangles) {
+  // A tenth, a fortieth of the floor.
+  for (const double area : {0.2, 0.05}) {
+    EXPECT_LT(3 * TrianglesAlongAShadow({}, area), TrianglesAlongAShadow(Regular(), area));
   }
 }
 

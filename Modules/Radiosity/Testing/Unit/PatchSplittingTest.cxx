@@ -102,6 +102,46 @@ TEST(PatchSplitting, CutSnapsToANearVertex) {
   }
 }
 
+TEST(PatchSplitting, SnappingLeavesNoShortSides) {
+  // An end is a vertex, or keeps from all of them by the tolerance; where the line must not lean,
+  // by the width of the patch, as far as it might have leaned to a vertex.
+  std::mt19937 random(7);
+  int kept = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const Border border = RandomBorder(&random, trial % 2 == 0 ? 0.6 : 0.02, 6);
+    const PatchRectangle rectangle = MinimumPatchRectangle(border);
+    for (const double tolerance : {0.05, 0.15}) {
+      const auto cut = CutPatch(border, tolerance);
+      const Vec2d a = PlaceOf(border, cut[0]), b = PlaceOf(border, cut[1]);
+      const double width = std::hypot(b.x - a.x, b.y - a.y);
+      const double least = std::min(tolerance * rectangle.length, width);
+      for (const PatchCutEnd& end : cut) {
+        if (end.to < 0) continue;
+        ++kept;
+        for (const int vertex : {end.from, end.to}) {
+          const Vec2d way = PlaceOf(border, end) - border[size_t(vertex)].position;
+          EXPECT_GE(std::hypot(way.x, way.y), least * (1 - 1e-9));  // Roundings of doubles.
+        }
+      }
+    }
+  }
+  EXPECT_GT(kept, 1000);
+}
+
+TEST(PatchSplitting, MiddlesOfSidesAreTVerticesWhereThoseLieThere) {
+  const Border border = {{{1, 0}, false}, {{2, 0}}, {{1, 1}}, {{0.5, 0.5}, false}, {{0, 0}}};
+  EXPECT_TRUE(IsTriangle(border));
+  const auto middles = SideMiddles(border);
+  EXPECT_EQ(PlaceOf(border, middles[0]), Vec2d(1.5, 0.5));
+  EXPECT_EQ(middles[0].from, 1);
+  EXPECT_EQ(middles[0].to, 2);
+  for (size_t side = 1; side < 3; ++side) {
+    EXPECT_EQ(middles[side].from, side == 1 ? 3 : 0);
+    EXPECT_EQ(middles[side].to, -1);
+  }
+  EXPECT_FALSE(IsTriangle({{{0, 0}}, {{1, 0}}, {{1, 1}}, {{0, 1}}}));
+}
+
 TEST(PatchSplitting, ThinPatchIsNotCutAslant) {
   // The lower vertex draws one end left, the upper one the other end right: by ten widths.
   const Border border = {{{0, 0}},   {{45, 0}, false}, {{100, 0}},

@@ -1,0 +1,128 @@
+// What judges links: by what each goes, and what certainty about visibility is worth.
+#include "Radiosity/Core/RefinementOracle.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+
+#include "Common/Core/Error.h"
+#include "SolverScenes.h"
+
+namespace lambert {
+namespace {
+
+/// A floor under a lamp of the same size, all within a unit cube, with a screen between them at
+/// half height over all x below `screen`.
+struct LampOverFloor {
+  explicit LampOverFloor(float screen) {
+    testing::AddQuad(&scene.mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Spectrum(0.5f));
+    testing::AddQuad(&scene.mesh, {0, 0, 1}, {0, 1, 0}, {1, 0, 0}, Spectrum(0.5f), Spectrum(10.f),
+                     1, 1);
+    if (screen > 0) {
+      testing::AddTriangle(&scene.mesh, {screen, -9, 0.5f}, {screen, 10, 0.5f}, {-99, 0, 0.5f},
+                           Spectrum(0.5f));
+    }
+    testing::CompleteTables(&scene);
+    scene.mesh.Complete();
+    tree = ClusterFaces(&scene.mesh, scene.parts);
+    rayScene.emplace(scene.mesh);
+    lit.assign(tree.surfaceRoots.size(), 3);
+    hierarchy.emplace(scene, tree, lit, LeafMeshOptions());
+  }
+
+  /// The whole of the side at height `z` that faces the middle.
+  const Element& ElementAt(float z) const {
+    for (const int32_t root : hierarchy->SurfaceSides()) {
+      const Element& element = (*hierarchy)[root];
+      if (element.frame.center.z == z && (element.axis.z > 0) == (z < 0.5f)) return element;
+    }
+    throw Error("The scene has no such side.");
+  }
+  LinkEvidence Evidence(float visibility) const {
+    const Element &lamp = ElementAt(1), &floor = ElementAt(0);
+    LinkEvidence evidence{lamp, floor, BoundPair(*hierarchy, lamp, floor), 10};
+    evidence.visibility = visibility;
+    return evidence;
+  }
+  std::unique_ptr<RefinementOracle> Oracle(OracleKind kind) const {
+    return MakeRefinementOracle(kind, *hierarchy, *rayScene);
+  }
+
+  Scene scene;
+  ClusterTree tree;
+  std::vector<uint8_t> lit;
+  std::optional<RayScene> rayScene;
+  std::optional<ElementHierarchy> hierarchy;
+};
+
+TEST(RefinementOracle, DoubtIsLeastWhereAllSamplesAreClear) {
+  const LampOverFloor room(0);
+  const auto oracle = room.Oracle(OracleKind::Doubt);
+  const auto error = [&](float visibility) {
+    return oracle->Estimate(room.Evidence(visibility)).Sum();
+  };
+  const auto doubt = [&](float visibility) { return error(visibility) - visibility * error(-1); };
+  EXPECT_GT(doubt(1), 0);
+  EXPECT_LT(doubt(1), doubt(0.5f));
+  EXPECT_GT(error(0), 0);  // What a few rays do not see may be there all the same.
+}
+
+TEST(RefinementOracle, GeometryAsksNothingOfVisibility) {
+  const LampOverFloor room(0);
+  const auto geometric = room.Oracle(OracleKind::Geometric);
+  const float unseen = room.Oracle(OracleKind::Doubt)->Estimate(room.Evidence(-1)).Sum();
+  for (const float visibility : {-1.f, 0.f, 0.5f, 1.f}) {
+    EXPECT_EQ(geometric->Estimate(room.Evidence(visibility)).Sum(), unseen);
+  }
+}
+
+TEST(RefinementOracle, BfaIsThePowerThatSamplesFind) {
+  const LampOverFloor room(0);
+  const auto bfa = room.Oracle(OracleKind::Bfa);
+  EXPECT_TRUE(bfa->HasFixedSamples());
+  EXPECT_EQ(bfa->Estimate(room.Evidence(-1)).Sum(), 0);
+  LinkEvidence evidence = room.Evidence(1);
+  evidence.transfer = {0.1f, 0, 0.2f};
+  EXPECT_FLOAT_EQ(bfa->Estimate(evidence).Sum(), 2);  // The vector on the floor's normal, times 10.
+  EXPECT_EQ(bfa->Estimate(evidence).bySource, 0);     // Of equal ends the receiver.
+}
+
+TEST(RefinementOracle, BfaSeesLightFromWhereNormalsCancel) {
+  // Four walls that face each other make one cluster, to whose mean normal light from above is
+  // none.
+  Element walls;
+  walls.kind = ElementKind::Face;
+  walls.area = 4;
+  walls.axis = {1, 0, 0};
+  walls.coneAngle = 1.5f;
+  const LampOverFloor room(0);
+  LinkEvidence evidence{room.ElementAt(1), walls, PairBound(), 10, 0, 1, {0, 0, 0.2f}};
+  EXPECT_FLOAT_EQ(room.Oracle(OracleKind::Bfa)->Estimate(evidence).Sum(), 2);
+}
+
+TEST(RefinementOracle, CertaintyTakesTheDoubtAway) {
+  const LampOverFloor open(0), part(0.5f), closed(30);
+  const auto sure = open.Oracle(OracleKind::Visibility);
+  LinkEvidence clear = open.Evidence(1);
+  EXPECT_TRUE(sure->IsCertain(clear));
+  EXPECT_FALSE(sure->IsCertain(open.Evidence(0.5f)));
+  const float doubted = sure->Estimate(clear).Sum();
+  clear.isCertain = true;
+  EXPECT_LT(sure->Estimate(clear).Sum(), doubted);
+  EXPECT_FLOAT_EQ(sure->Estimate(clear).Sum(), sure->Estimate(open.Evidence(-1)).Sum());
+
+  // A screen under half of the lamp leaves neither certain, one under all of it the one.
+  EXPECT_FALSE(part.Oracle(OracleKind::Visibility)->IsCertain(part.Evidence(1)));
+  EXPECT_FALSE(part.Oracle(OracleKind::Visibility)->IsCertain(part.Evidence(0)));
+  EXPECT_TRUE(closed.Oracle(OracleKind::Visibility)->IsCertain(closed.Evidence(0)));
+  EXPECT_FALSE(open.Oracle(OracleKind::Doubt)->IsCertain(open.Evidence(1)));
+}
+
+TEST(RefinementOracle, NamesAreThoseOfTheCommandLine) {
+  EXPECT_EQ(OracleName(OracleKind::Doubt), std::string("doubt"));
+  EXPECT_EQ(OracleName(OracleKind::Visibility), std::string("visibility"));
+}
+
+}  // namespace
+}  // namespace lambert
