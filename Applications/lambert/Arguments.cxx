@@ -290,6 +290,16 @@ void SolveArguments::AddTo(CLI::App* command) {
       "--lightmap", lightMap, "Mesh with texture coordinates, .vtp, its pages beside it as .hdr");
   for (CLI::Option* option : AddAtlasOptions(command, &atlas)) option->needs(map);
   AddRepresentationOptions(command, map, this);
+  command
+      ->add_flag("--keep-textures", model.keepTextures,
+                 "glTF, HTML: textured surfaces keep their images, and are lit at their points")
+      ->needs(map);
+  command
+      ->add_option("--baked-size", model.bakedSize,
+                   "glTF, HTML: texels along a side of a page that textures are baked into")
+      ->check(CLI::Range(16, 16384))
+      ->capture_default_str()
+      ->needs(map);
   command->add_flag("--both-sides", bothSides, "PLY: keep both lit sides of a face");
   command->add_option("--report", report, "Account of the run, JSON");
   command

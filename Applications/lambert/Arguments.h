@@ -50,6 +50,7 @@ struct SolveArguments {
   LightArguments lights;
   std::string probe, probeOutput, image, size = "960x720", camera, up = "auto", report, lightMap;
   AtlasOptions atlas;
+  LitModelOptions model;  ///< of glTF and HTML, without its tone
   std::optional<int64_t> introducedTriangles;
   std::map<std::string, Representation> representations;
   bool probeGather = false, bothSides = false;

@@ -90,7 +90,9 @@ void WriteOutput(const SolveArguments& arguments, RadiosityRun* run) {
     return;
   }
   const UpAxis up = arguments.UpOf(run->GetScene().mesh);
-  run->DrawModel(arguments.tone, arguments.ImageCamera(up));
+  LitModelOptions options = arguments.model;
+  options.tone = arguments.tone;
+  run->DrawModel(options, arguments.ImageCamera(up));
   WriteLitModel(*run->DrawnModel(), arguments.output);
 }
 

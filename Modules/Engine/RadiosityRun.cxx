@@ -236,10 +236,10 @@ void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
   this->AddStage("light map", timer.Seconds());
 }
 
-void RadiosityRun::DrawModel(const ToneMappingOptions& tone, const std::optional<Camera>& camera) {
+void RadiosityRun::DrawModel(const LitModelOptions& options, const std::optional<Camera>& camera) {
   this->model_ = this->lightMap_ ? MakeLitModel(this->scene_, this->solution_, this->atlas_,
-                                                *this->lightMap_, tone)
-                                 : MakeLitModel(this->scene_, this->solution_, tone);
+                                                *this->lightMap_, options)
+                                 : MakeLitModel(this->scene_, this->solution_, options);
   if (camera) {
     this->model_->camera = *camera;
   }

@@ -273,6 +273,11 @@ TriangleMesh ReadMesh(const aiMesh& source, const SurfaceMaterial& material, int
   ReadTriangles(source, file, &report, &all);
   MendNormals(source, file, context, &all);
 
+  // A texture that vertex colours tint, or that lies on no coordinates, cannot be looked up alone.
+  if (source.HasVertexColors(0) || !source.HasTextureCoords(0)) {
+    context.assembly.materials[size_t(materialId)].baseTexture = nullptr;
+  }
+
   // Materials of the faces.
   const FaceMaterials evaluator(source, material, context);
   std::vector<FaceMaterial> faces(all.triangles.size());
