@@ -45,7 +45,7 @@ Spectrum LinearDisplay(const ToneMapping& toneMapping, const Spectrum& light, in
 class PointLitMeshes {
  public:
   PointLitMeshes(const Scene& scene, const RadiositySolution& solution,
-                 const BaseTextures& textures, const ToneMapping& toneMapping, LitModel* model)
+                 const BaseTextures* textures, const ToneMapping& toneMapping, LitModel* model)
       : scene_(scene),
         solution_(solution),
         textures_(textures),
@@ -58,7 +58,7 @@ class PointLitMeshes {
     std::map<int32_t, std::vector<int64_t>> textured;
     for (const int64_t triangle : triangles) {
       const int64_t face = this->solution_.inputFaceId[static_cast<size_t>(triangle)];
-      if (this->textures_.IsTextured(face)) {
+      if (this->textures_ && this->textures_->IsTextured(face)) {
         textured[this->scene_.mesh.materialId[static_cast<size_t>(face)]].push_back(triangle);
       } else {
         plain.push_back(triangle);
@@ -106,7 +106,7 @@ class PointLitMeshes {
     for (int band = 0; band < 3; ++band) {
       lit.factor[band] = std::clamp(texture.factor[band], 0.f, 1.f);
     }
-    const Spectrum mean = this->textures_.MeanReflectance(material);
+    const Spectrum mean = this->textures_->MeanReflectance(material);
     for (const int64_t point : points) {
       const size_t p = static_cast<size_t>(point);
       const Spectrum shown = LinearDisplay(this->toneMapping_, mean * this->solution_.irradiance[p],
@@ -149,7 +149,7 @@ class PointLitMeshes {
 
   const Scene& scene_;
   const RadiositySolution& solution_;
-  const BaseTextures& textures_;
+  const BaseTextures* textures_;  ///< null: means show
   const ToneMapping& toneMapping_;
   LitModel& model_;
   std::map<std::tuple<const TextureSource*, TextureWrap, TextureWrap>, int> images_;
@@ -225,7 +225,8 @@ LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
   const ToneMapping toneMapping = AdaptTo(solution, options.tone);
   std::vector<int64_t> triangles(solution.mesh.triangles.size());
   std::iota(triangles.begin(), triangles.end(), int64_t(0));
-  PointLitMeshes(scene, solution, textures, toneMapping, &model).Add(triangles);
+  const BaseTextures* shown = options.texturesAtPoints ? &textures : nullptr;
+  PointLitMeshes(scene, solution, shown, toneMapping, &model).Add(triangles);
   return model;
 }
 
@@ -268,7 +269,8 @@ LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
   }
 
   // Lit sides that it does not hold.
-  PointLitMeshes(scene, solution, textures, toneMapping, &model).Add(others);
+  const BaseTextures* shown = options.texturesAtPoints ? &textures : nullptr;
+  PointLitMeshes(scene, solution, shown, toneMapping, &model).Add(others);
   return model;
 }
 }  // namespace lambert

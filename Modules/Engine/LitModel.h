@@ -52,6 +52,8 @@ struct LitModelOptions {
   /// Under a light map: textured surfaces keep the images of the scene and are lit at their points;
   /// otherwise both are baked into one image.
   bool keepTextures = false;
+  /// What is lit at its points shows its base textures; else the mean that it has on each face.
+  bool texturesAtPoints = true;
   int bakedSize = 2048;  ///< texels along a side of a page with baked textures, [16, 16384]
 };
 
