@@ -16,7 +16,6 @@ void WriteMesh(vtkPolyData* mesh, const std::string& fileName) {
     throw Error("The light map " + fileName + " could not be written.");
   }
 }
-
 }  // namespace
 
 void WriteLightMap(const RadiosityAtlas& atlas, const Scene& scene, const std::string& fileName) {
