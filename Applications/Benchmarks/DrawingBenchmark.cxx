@@ -37,9 +37,11 @@ vtkSmartPointer<vtkPolyData> Read(const std::string& fileName) {
 
 /// The pages beside a light map, as many as there are.
 void AddPages(const std::string& fileName, vtkRadiosityActor* actor) {
-  for (int pages = 1; std::filesystem::exists(LightMapPageNames(fileName, pages).back()); ++pages) {
+  for (int pages = 1;
+       std::filesystem::exists(LightMapPageNames(fileName, pages, PageFormat::Hdr).back());
+       ++pages) {
     vtkNew<vtkHDRReader> reader;
-    reader->SetFileName(LightMapPageNames(fileName, pages).back().c_str());
+    reader->SetFileName(LightMapPageNames(fileName, pages, PageFormat::Hdr).back().c_str());
     reader->Update();
     actor->AddLightMapPage(reader->GetOutput());
   }

@@ -7,8 +7,8 @@
 #include <map>
 
 #include "ArgumentChecks.h"
-#include "Engine/LightMapFile.h"
 #include "Engine/LitModelFile.h"
+#include "Engine/ObjFile.h"
 #include "Engine/SolutionFile.h"
 
 namespace lambert {
@@ -181,6 +181,36 @@ void AddRepresentationOptions(CLI::App* command, CLI::Option* lightMap, SolveArg
       ->needs(lightMap);
 }
 
+/// The images of a light map, and what models under one do with textures.
+void AddMapOutputOptions(CLI::App* command, CLI::Option* lightMap, SolveArguments* arguments) {
+  const std::map<std::string, PageFormat> formats{
+      {"hdr", PageFormat::Hdr}, {"exr", PageFormat::Exr}, {"png", PageFormat::Png}};
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--page-format",
+          [=](const std::vector<std::string>& names) {
+            arguments->pageFormats.clear();
+            for (const std::string& name : names) {
+              arguments->pageFormats.push_back(formats.at(name));
+            }
+          },
+          "Pages of the light map: hdr, exr (floats), png (tone mapped); repeatable")
+      ->check(CLI::IsMember({"hdr", "exr", "png"}))
+      ->allow_extra_args(false)
+      ->default_str("hdr")
+      ->needs(lightMap);
+  command
+      ->add_flag("--keep-textures", arguments->model.keepTextures,
+                 "glTF, HTML: textured surfaces keep their images, and are lit at their points")
+      ->needs(lightMap);
+  command
+      ->add_option("--baked-size", arguments->model.bakedSize,
+                   "glTF, HTML, OBJ: texels along a side of a page that textures are baked into")
+      ->check(CLI::Range(16, 16384))
+      ->capture_default_str()
+      ->needs(lightMap);
+}
+
 void RequirePngName(const std::string& image) {
   const std::string ending = std::filesystem::path(image).extension().string();
   if (!image.empty() && ending != ".png" && ending != ".PNG") {
@@ -263,7 +293,7 @@ void SolveArguments::AddTo(CLI::App* command) {
   scene.AddTo(command);
 
   // How, how well and how long.
-  command->add_option("-o,--output", output, "Solved scene, .vtp, .ply, .glb, .gltf or .html")
+  command->add_option("-o,--output", output, "Solved scene, .vtp, .ply, .glb, .gltf, .html or .obj")
       ->required();
   std::vector<std::string> names;
   for (const SolveMethodTraits& traits : SolveMethods()) names.push_back(traits.name);
@@ -328,9 +358,10 @@ void SolveArguments::AddTo(CLI::App* command) {
   AddToneOptions(command, &tone, &dodgingAndBurning);
   AddFalseColorOptions(command, this);
   CLI::Option* map = command->add_option(
-      "--lightmap", lightMap, "Mesh with texture coordinates, .vtp, its pages beside it as .hdr");
+      "--lightmap", lightMap, "Mesh with texture coordinates, .vtp, its pages beside it");
   for (CLI::Option* option : AddAtlasOptions(command, &atlas)) option->needs(map);
   AddRepresentationOptions(command, map, this);
+  AddMapOutputOptions(command, map, this);
   command->add_flag("--both-sides", bothSides, "PLY: keep both lit sides of a face");
   command->add_option("--report", report, "Account of the run, JSON");
   command
@@ -346,12 +377,17 @@ void SolveArguments::Check() const {
   lights.Check();
   if (!IsSolutionFileName(output) && !IsLitModelFileName(output)) {
     throw CLI::ValidationError("--output",
-                               "the name has to end in .vtp, .ply, .glb, .gltf or .html");
+                               "the name has to end in .vtp, .ply, .glb, .gltf, .html or .obj");
   }
   if (IsLitModelFileName(output) && (introducedTriangles || !representations.empty())) {
-    throw CLI::ValidationError("--output",
-                               "glTF and HTML show all surfaces in one way; leave --introduced and "
-                               "--represent to .vtp and .ply");
+    throw CLI::ValidationError(
+        "--output",
+        "glTF, HTML and OBJ show all surfaces in one way; leave --introduced and "
+        "--represent to .vtp and .ply");
+  }
+  if (FileEnding(output) == ".obj" && model.keepTextures) {
+    throw CLI::ValidationError("--keep-textures",
+                               "OBJ has no light beside a texture; leave it to glTF and HTML");
   }
   if (probe.empty() != probeOutput.empty()) {
     throw CLI::ValidationError("--probe", "--probe and --probe-output belong together");
@@ -363,6 +399,9 @@ void SolveArguments::Check() const {
   FilesOfRun files(scene.files);
   files.Add("--probe", probe, false);
   files.Add("--output", output, true);
+  if (FileEnding(output) == ".obj") {
+    for (const std::string& name : FilesBesideObj(output, 1)) files.Add("--output", name, true);
+  }
   files.Add("--probe-output", probeOutput, true);
   files.Add("--image", image, true);
   files.Add("--report", report, true);
@@ -371,8 +410,8 @@ void SolveArguments::Check() const {
       throw CLI::ValidationError("--lightmap", "the name has to end in .vtp");
     }
     files.Add("--lightmap", lightMap, true);
-    for (const std::string& page : LightMapPageNames(lightMap, 1)) {
-      files.Add("--lightmap", page, true);
+    for (const PageFormat format : pageFormats) {
+      files.Add("--lightmap", LightMapPageNames(lightMap, 1, format).front(), true);
     }
   }
   ImageSize();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "Atlas/Core/LightMapPages.h"
 #include "Atlas/Core/RadiosityAtlas.h"
 #include "Display/Core/ToneMapping.h"
 #include "Display/Core/UpAxis.h"
@@ -49,7 +50,9 @@ struct SolveArguments {
   int threads = 0;
   LightArguments lights;
   std::string probe, probeOutput, image, size = "960x720", camera, up = "auto", report, lightMap;
+  std::vector<PageFormat> pageFormats{PageFormat::Hdr};
   AtlasOptions atlas;
+  LitModelOptions model;  ///< of glTF and HTML, without its tone
   std::optional<int64_t> introducedTriangles;
   std::map<std::string, Representation> representations;
   bool probeGather = false, bothSides = false;

@@ -13,6 +13,7 @@
 #include "Engine/HtmlFile.h"
 #include "Engine/LightMapFile.h"
 #include "Engine/LitModelFile.h"
+#include "Engine/ObjFile.h"
 #include "Engine/ProbeFile.h"
 #include "Engine/RunReport.h"
 #include "Engine/SolutionFile.h"
@@ -30,6 +31,9 @@ void CheckOutputs(const SolveArguments& arguments) {
     if (!name.empty()) RequireWritable(name);
   }
   if (FileEnding(arguments.output) == ".html") RequireHtmlPage();
+  if (FileEnding(arguments.output) == ".obj") {
+    RequireWritable(FilesBesideObj(arguments.output, 0).front());
+  }
   if (!arguments.image.empty() && !vtkRadiosityImageWriter::IsDisplayAvailable()) {
     throw Error("Drawing a picture needs an X display and none answers: run under xvfb-run.");
   }
@@ -90,7 +94,10 @@ void WriteOutput(const SolveArguments& arguments, RadiosityRun* run) {
     return;
   }
   const UpAxis up = arguments.UpOf(run->GetScene().mesh);
-  run->DrawModel(arguments.tone, arguments.ImageCamera(up));
+  LitModelOptions options = arguments.model;
+  options.tone = arguments.tone;
+  options.texturesAtPoints = FileEnding(arguments.output) != ".obj";
+  run->DrawModel(options, arguments.ImageCamera(up));
   WriteLitModel(*run->DrawnModel(), arguments.output);
 }
 
@@ -103,8 +110,10 @@ void DrawLightMap(const SolveArguments& arguments, const ProgressCallback& progr
     if (run->Represented()) {
       WriteRepresentedScene(*run->Represented(), run->GetScene(), arguments.lightMap);
     } else {
-      WriteLightMap(run->Atlas(), *run->DrawnLightMap(), run->GetScene(), arguments.lightMap);
+      WriteLightMap(run->Atlas(), run->GetScene(), arguments.lightMap);
     }
+    WritePages(*run->DrawnLightMap(), run->Solution(), arguments.tone, arguments.lightMap,
+               arguments.pageFormats);
   } catch (const Cancelled&) {
     display->Say("Interrupted: no light map is written.");
   }

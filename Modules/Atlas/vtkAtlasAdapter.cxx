@@ -1,23 +1,125 @@
 #include "vtkAtlasAdapter.h"
 
+#include "Common/Core/Error.h"
 #include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkImageData.h"
 #include "vtkIntArray.h"
+#include "vtkMultiBlockDataSet.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkRadiosityArrays.h"
 #include "vtkSceneAdapter.h"
+#include "vtkTriangleMeshAdapter.h"
 #include "vtkValueArrays.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace lambert {
+namespace {
+using Names = vtkRadiosityArrays;
+
+/// An array that the output of vtkRadiosityAtlas has, a tuple for each of `count`.
+vtkDataArray* RequireArray(vtkFieldData* data, const char* name, int components, size_t count) {
+  vtkDataArray* array = data->GetArray(name);
+  if (!array || array->GetNumberOfComponents() != components ||
+      array->GetNumberOfTuples() != static_cast<vtkIdType>(count)) {
+    throw Error(std::string("The mesh has no array ") + name + " of " + std::to_string(components) +
+                (components == 1 ? " component" : " components") +
+                "; it takes the output of vtkRadiosityAtlas.");
+  }
+  return array;
+}
+
+/// Charts and their pages. Their faces stand together, in the order of their numbers.
+void ReadCharts(vtkCellData* cells, size_t faces, RadiosityAtlas* atlas) {
+  const std::vector<int32_t> charts =
+      NumbersFromArray<int32_t>(RequireArray(cells, Names::ChartId(), 1, faces));
+  const std::vector<int32_t> pages =
+      NumbersFromArray<int32_t>(RequireArray(cells, Names::PageId(), 1, faces));
+  for (size_t face = 0; face < faces; ++face) {
+    const int32_t last = static_cast<int32_t>(atlas->set.charts.size()) - 1;
+    if (charts[face] != last) {
+      if (charts[face] != last + 1 || pages[face] < 0) {
+        throw Error("The charts of the mesh are out of order at face " + std::to_string(face) +
+                    "; it takes the output of vtkRadiosityAtlas as it is.");
+      }
+      Chart chart;
+      chart.firstFace = static_cast<int32_t>(face);
+      atlas->set.charts.push_back(chart);
+      atlas->pageOfChart.push_back(pages[face]);
+      atlas->pages = std::max(atlas->pages, pages[face] + 1);
+    }
+    ++atlas->set.charts.back().faceCount;
+  }
+}
+
+/// Points of one number become one.
+void JoinPoints(const std::vector<int64_t>& shared, TriangleMesh* mesh) {
+  std::vector<Vec3f> positions;
+  std::unordered_map<int64_t, int32_t> pointOfNumber;
+  for (std::array<int32_t, 3>& triangle : mesh->triangles) {
+    for (int32_t& corner : triangle) {
+      const auto [point, isNew] = pointOfNumber.try_emplace(shared[static_cast<size_t>(corner)],
+                                                            static_cast<int32_t>(positions.size()));
+      if (isNew) {
+        positions.push_back(mesh->positions[static_cast<size_t>(corner)]);
+      }
+      corner = point->second;
+    }
+  }
+  mesh->positions = std::move(positions);
+  mesh->normals.clear();
+  mesh->uvs.clear();
+}
+}  // namespace
+
+RadiosityAtlas AtlasFromPolyData(vtkPolyData* input, TriangleMesh* mesh) {
+  *mesh = TriangleMeshFromPolyData(input);
+  const size_t faces = mesh->triangles.size(), points = mesh->positions.size();
+  vtkFieldData* fields = input->GetFieldData();
+  RadiosityAtlas atlas;
+  atlas.pageSize =
+      static_cast<int>(RequireArray(fields, Names::AtlasPageSize(), 1, 1)->GetComponent(0, 0));
+  atlas.padding =
+      static_cast<int>(RequireArray(fields, Names::AtlasPadding(), 1, 1)->GetComponent(0, 0));
+  atlas.texelSize = RequireArray(fields, Names::AtlasTexelSize(), 1, 1)->GetComponent(0, 0);
+  ReadCharts(input->GetCellData(), faces, &atlas);
+  atlas.set.places.resize(faces);
+
+  // Places of the corners, then the points that they share.
+  const std::vector<Vec2f> coords = TuplesFromArray<Vec2f>(
+      RequireArray(input->GetPointData(), Names::LightMapTCoords(), 2, points),
+      Names::LightMapTCoords());
+  for (const std::array<int32_t, 3>& triangle : mesh->triangles) {
+    atlas.textureCoords.push_back({coords[static_cast<size_t>(triangle[0])],
+                                   coords[static_cast<size_t>(triangle[1])],
+                                   coords[static_cast<size_t>(triangle[2])]});
+  }
+  JoinPoints(NumbersFromArray<int64_t>(
+                 RequireArray(input->GetPointData(), Names::SharedPointId(), 1, points)),
+             mesh);
+  return atlas;
+}
+
+void PagesFromLightMap(const LightMap& map, vtkMultiBlockDataSet* output) {
+  output->SetNumberOfBlocks(static_cast<unsigned>(map.pages.size()));
+  for (size_t page = 0; page < map.pages.size(); ++page) {
+    vtkNew<vtkImageData> image;
+    image->SetDimensions(map.pageSize, map.pageSize, 1);
+    image->GetPointData()->SetScalars(ArrayFromTuples(Names::Irradiance(), map.pages[page]));
+    output->SetBlock(static_cast<unsigned>(page), image);
+  }
+}
+
 void PolyDataFromRepresentedScene(const RepresentedScene& represented, Scene scene,
                                   vtkPolyData* output) {
   RepresentedMesh joined = JoinRepresentations(represented);
   scene.mesh = std::move(joined.mesh);
   PolyDataFromScene(scene, output);
-  using Names = vtkRadiosityArrays;
   vtkPointData* points = output->GetPointData();
   points->AddArray(ArrayFromTuples(Names::LightMapTCoords(), joined.lightMapCoords));
   points->AddArray(ArrayFromTuples(Names::Irradiance(), joined.irradiance));
@@ -25,14 +127,23 @@ void PolyDataFromRepresentedScene(const RepresentedScene& represented, Scene sce
 }
 
 void PolyDataFromAtlas(const RadiosityAtlas& atlas, Scene scene, vtkPolyData* output) {
-  const std::vector<Vec2f> coordinates = SplitAtCharts(atlas, &scene.mesh);
+  std::vector<int64_t> shared;
+  const std::vector<Vec2f> coordinates = SplitAtCharts(atlas, &scene.mesh, &shared);
   PolyDataFromScene(scene, output);
-  output->GetPointData()->AddArray(
-      ArrayFromTuples(vtkRadiosityArrays::LightMapTCoords(), coordinates));
+  vtkPointData* points = output->GetPointData();
+  points->AddArray(ArrayFromTuples(Names::LightMapTCoords(), coordinates));
+  points->AddArray(ArrayFromNumbers<vtkIdTypeArray>(Names::SharedPointId(), shared));
+  vtkFieldData* fields = output->GetFieldData();
+  fields->AddArray(
+      ArrayFromNumbers<vtkIntArray>(Names::AtlasPageSize(), std::vector<int>{atlas.pageSize}));
+  fields->AddArray(
+      ArrayFromNumbers<vtkIntArray>(Names::AtlasPadding(), std::vector<int>{atlas.padding}));
+  fields->AddArray(ArrayFromNumbers<vtkDoubleArray>(Names::AtlasTexelSize(),
+                                                    std::vector<double>{atlas.texelSize}));
 
   vtkNew<vtkIntArray> charts, pages;
-  charts->SetName(vtkRadiosityArrays::ChartId());
-  pages->SetName(vtkRadiosityArrays::PageId());
+  charts->SetName(Names::ChartId());
+  pages->SetName(Names::PageId());
   charts->SetNumberOfValues(scene.mesh.FaceCount());
   pages->SetNumberOfValues(scene.mesh.FaceCount());
   for (size_t i = 0; i < atlas.set.charts.size(); ++i) {

@@ -11,9 +11,18 @@
 #include "vtkSceneAdapter.h"
 #include "vtkTable.h"
 
+/// The steps before packing, and the time stamps of what they were made of.
+struct vtkRadiosityAtlas::Kept {
+  vtkMTimeType MeshTime = 0, TreeTime = 0;
+  lambert::Scene Scene;
+  lambert::ClusterTree Tree;
+  lambert::ChartSet Charts;
+};
+
 vtkStandardNewMacro(vtkRadiosityAtlas);
 
-vtkRadiosityAtlas::vtkRadiosityAtlas() : Options(new lambert::AtlasOptions) {
+vtkRadiosityAtlas::vtkRadiosityAtlas()
+    : Options(new lambert::AtlasOptions), Last(std::make_unique<Kept>()) {
   this->SetNumberOfInputPorts(2);
 }
 
@@ -41,6 +50,24 @@ lambertOptionMacro(TexelSize, double, texelSize);
 lambertOptionMacro(Padding, int, padding);
 #undef lambertOptionMacro
 
+void vtkRadiosityAtlas::TakeIn(vtkPolyData* mesh, vtkTable* tree, const Progress& progress) {
+  const bool hasTree = tree && tree->GetNumberOfRows() > 0;
+  const vtkMTimeType treeTime = hasTree ? tree->GetMTime() : 0;
+  if (this->Last->MeshTime == mesh->GetMTime() && this->Last->TreeTime == treeTime) {
+    return;
+  }
+  *this->Last = Kept();
+  Kept kept;
+  kept.Scene = lambert::SceneFromPolyData(mesh);
+  kept.Tree =
+      hasTree ? lambert::ClusterTreeFromTable(tree)
+              : lambert::ClusterFaces(&kept.Scene.mesh, kept.Scene.parts, {}, nullptr, progress);
+  kept.MeshTime = mesh->GetMTime();
+  kept.TreeTime = treeTime;
+  *this->Last = std::move(kept);
+  ++this->NumberOfReadings;
+}
+
 int vtkRadiosityAtlas::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                    vtkInformationVector* outputs) {
   const auto progress = [this](double fraction, const char* stage) {
@@ -49,19 +76,23 @@ int vtkRadiosityAtlas::RequestData(vtkInformation*, vtkInformationVector** input
     return !this->GetAbortExecute();
   };
   try {
-    lambert::Scene scene = lambert::SceneFromPolyData(vtkPolyData::GetData(inputs[0]));
-    vtkTable* table = vtkTable::GetData(inputs[1]);
-    const lambert::ClusterTree tree =
-        table && table->GetNumberOfRows() > 0
-            ? lambert::ClusterTreeFromTable(table)
-            : lambert::ClusterFaces(&scene.mesh, scene.parts, {}, nullptr, progress);
-    const lambert::RadiosityAtlas atlas =
-        lambert::MakeRadiosityAtlas(scene.mesh, tree, *this->Options, progress);
+    // Faces and charts, where they are not those of the last run.
+    this->TakeIn(vtkPolyData::GetData(inputs[0]), vtkTable::GetData(inputs[1]), progress);
+    Kept& last = *this->Last;
+    const lambert::ChartOptions wanted = lambert::ChartOptionsOf(last.Tree, *this->Options);
+    if (!last.Charts.IsOf(wanted)) {
+      last.Charts = lambert::CutIntoCharts(last.Scene.mesh, last.Tree, wanted, progress);
+      ++this->NumberOfSegmentations;
+    }
+
+    // Their places.
+    const lambert::RadiosityAtlas atlas = lambert::PackAtlas(last.Charts, *this->Options, progress);
+    ++this->NumberOfPackings;
     this->NumberOfCharts = static_cast<vtkIdType>(atlas.set.charts.size());
     this->NumberOfPages = atlas.pages;
     this->DeliveredTexelSize = atlas.texelSize;
     this->Utilisation = atlas.utilisation;
-    lambert::PolyDataFromAtlas(atlas, std::move(scene), vtkPolyData::GetData(outputs));
+    lambert::PolyDataFromAtlas(atlas, last.Scene, vtkPolyData::GetData(outputs));
     return 1;
   } catch (const lambert::Cancelled&) {
     return 1;  // An abort is no error; nothing is delivered.

@@ -6,7 +6,9 @@
  * it has. Input port 1 (optional): vtkTable, its cluster tree, as vtkFaceClustering leaves both;
  * without it the filter clusters. Output: the mesh in the order of the tree, points split where
  * charts meet, with point array `LightMapTCoords` (2 float, [0, 1], v upward) and cell arrays
- * `ChartId` and `PageId`. Charts are clusters that least squares conformal maps lay flat without
+ * `ChartId` and `PageId`. What is still valid is not made again: another page size, padding or
+ * texel size packs the charts anew, and cuts them anew only where one would be cut or taken
+ * otherwise. Charts are clusters that least squares conformal maps lay flat without
  * overlaps (thesis 5.2, levy2002).
  */
 #ifndef vtkRadiosityAtlas_h
@@ -15,11 +17,14 @@
 #include "lambertAtlasModule.h"
 #include "vtkPolyDataAlgorithm.h"
 
-#include <memory>  // for the options
+#include <functional>  // for progress
+#include <memory>      // for the options
 
 namespace lambert {
 struct AtlasOptions;
 }
+
+class vtkTable;
 
 class LAMBERTATLAS_EXPORT vtkRadiosityAtlas : public vtkPolyDataAlgorithm {
  public:
@@ -54,10 +59,14 @@ class LAMBERTATLAS_EXPORT vtkRadiosityAtlas : public vtkPolyDataAlgorithm {
   vtkIdType GetNumberOfCharts() { return this->NumberOfCharts; }
   int GetNumberOfPages() { return this->NumberOfPages; }
   double GetDeliveredTexelSize() { return this->DeliveredTexelSize; }  ///< m
-  double GetUtilisation() {
-    return this->Utilisation;
-  }  ///< area of charts over that of pages
-     ///@}
+  /// Area of charts over that of pages.
+  double GetUtilisation() { return this->Utilisation; }
+  ///@}
+  ///@{ How often faces were clustered or taken in, cut into charts, and charts packed.
+  int GetNumberOfReadings() { return this->NumberOfReadings; }
+  int GetNumberOfSegmentations() { return this->NumberOfSegmentations; }
+  int GetNumberOfPackings() { return this->NumberOfPackings; }
+  ///@}
 
  protected:
   vtkRadiosityAtlas();
@@ -69,10 +78,16 @@ class LAMBERTATLAS_EXPORT vtkRadiosityAtlas : public vtkPolyDataAlgorithm {
   vtkRadiosityAtlas(const vtkRadiosityAtlas&) = delete;
   void operator=(const vtkRadiosityAtlas&) = delete;
 
+  struct Kept;
+  using Progress = std::function<bool(double fraction, const char* stage)>;
+  void TakeIn(vtkPolyData* mesh, vtkTable* tree, const Progress& progress);
+
   std::unique_ptr<lambert::AtlasOptions> Options;
+  std::unique_ptr<Kept> Last;  ///< what the last run made
   vtkIdType NumberOfCharts = 0;
   int NumberOfPages = 0;
   double DeliveredTexelSize = 0, Utilisation = 0;
+  int NumberOfReadings = 0, NumberOfSegmentations = 0, NumberOfPackings = 0;
 };
 
 #endif

@@ -37,11 +37,13 @@ class LAMBERTCOMMON_EXPORT vtkRadiosityArrays : public vtkObject {
   static const char* IrradianceVector() { return "IrradianceVector"; }  ///< 9 float, W/m2
   static const char* StandardError() { return "StandardError"; }        ///< 3 float, W/m2
   static const char* LightMapTCoords() { return "LightMapTCoords"; }    ///< 2 float, [0, 1]
+  /// vtkIdType: points that charts made of one have its number
+  static const char* SharedPointId() { return "SharedPointId"; }
   /// 3 float, unit, of the surface that a point lies on
   static const char* GeometricNormals() { return "GeometricNormals"; }
   ///@}
 
-  ///@{ Tables in the field data, a tuple a row: materials, parts, lights; and the camera.
+  ///@{ Tables in the field data, a tuple a row: materials, parts, lights; atlas and camera.
   static const char* MaterialName() { return "Material.Name"; }                ///< string
   static const char* MaterialReflectance() { return "Material.Reflectance"; }  ///< 3 float
   static const char* MaterialEmittance() { return "Material.Emittance"; }      ///< 3 float, W/m2
@@ -61,6 +63,9 @@ class LAMBERTCOMMON_EXPORT vtkRadiosityArrays : public vtkObject {
   static const char* LightRotation() { return "Light.Rotation"; }    ///< float, radians
   static const char* LightSize() { return "Light.Size"; }  ///< radius, m; diameter, radians
   static const char* LightConeAngles() { return "Light.ConeAngles"; }    ///< 2 float, radians
+  static const char* AtlasPageSize() { return "Atlas.PageSize"; }        ///< int, texels
+  static const char* AtlasPadding() { return "Atlas.Padding"; }          ///< int, texels
+  static const char* AtlasTexelSize() { return "Atlas.TexelSize"; }      ///< double, m
   static const char* CameraPosition() { return "Camera.Position"; }      ///< 3 double, m
   static const char* CameraFocalPoint() { return "Camera.FocalPoint"; }  ///< 3 double, m
   static const char* CameraViewUp() { return "Camera.ViewUp"; }          ///< 3 double

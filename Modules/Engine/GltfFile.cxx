@@ -17,7 +17,8 @@ using Json = nlohmann::ordered_json;
 // Codes of the format.
 constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 constexpr int kVertices = 34962, kIndices = 34963;
-constexpr int kLinear = 9729, kLinearMipMaps = 9987, kClampToEdge = 33071;
+constexpr int kLinear = 9729, kLinearMipMaps = 9987;
+constexpr int kRepeat = 10497, kMirroredRepeat = 33648, kClampToEdge = 33071;
 /// The nearest that is seen, parts of what lies between eye and focal point.
 constexpr double kNear = 1e-3;
 
@@ -79,16 +80,26 @@ int GltfDocument::AddAccessor(int view, int component, const char* type, size_t 
   return static_cast<int>(this->Root["accessors"].size()) - 1;
 }
 
+int WrapCode(TextureWrap wrap) {
+  if (wrap == TextureWrap::Clamp) {
+    return kClampToEdge;
+  }
+  return wrap == TextureWrap::Mirror ? kMirroredRepeat : kRepeat;
+}
+
+/// An image, and how it is looked up.
 void GltfDocument::AddImage(const LitImage& image) {
-  const std::string png = PngOf(image);
-  this->Root["samplers"] = Json::array({{{"magFilter", kLinear},
-                                         {"minFilter", kLinearMipMaps},
-                                         {"wrapS", kClampToEdge},
-                                         {"wrapT", kClampToEdge}}});
-  const int view = this->AddView(png.data(), png.size());
-  this->Root["images"].push_back(
-      {{"name", image.name}, {"mimeType", "image/png"}, {"bufferView", view}});
-  this->Root["textures"].push_back({{"sampler", 0}, {"source", this->Root["images"].size() - 1}});
+  const std::string bytes = image.file.empty() ? PngOf(image) : image.file;
+  const int view = this->AddView(bytes.data(), bytes.size());
+  this->Root["images"].push_back({{"name", image.name},
+                                  {"mimeType", IsJpeg(bytes) ? "image/jpeg" : "image/png"},
+                                  {"bufferView", view}});
+  this->Root["samplers"].push_back({{"magFilter", kLinear},
+                                    {"minFilter", kLinearMipMaps},
+                                    {"wrapS", WrapCode(image.wrapU)},
+                                    {"wrapT", WrapCode(image.wrapV)}});
+  this->Root["textures"].push_back({{"sampler", this->Root["samplers"].size() - 1},
+                                    {"source", this->Root["images"].size() - 1}});
 }
 
 /// Without shading; a viewer that does not know unlit materials sees rough ones that are no metal.
@@ -97,9 +108,17 @@ int GltfDocument::AddMaterial(const LitMesh& mesh) {
   if (mesh.image >= 0) {
     surface["baseColorTexture"] = {{"index", mesh.image}};
   }
-  this->Root["materials"].push_back({{"name", mesh.name},
-                                     {"pbrMetallicRoughness", surface},
-                                     {"extensions", {{"KHR_materials_unlit", Json::object()}}}});
+  if (mesh.factor != Spectrum(1.f)) {
+    surface["baseColorFactor"] = {mesh.factor.r, mesh.factor.g, mesh.factor.b, 1};
+  }
+  Json material = {{"name", mesh.name},
+                   {"pbrMetallicRoughness", surface},
+                   {"extensions", {{"KHR_materials_unlit", Json::object()}}}};
+  if (mesh.alphaCutoff >= 0) {
+    material["alphaMode"] = "MASK";
+    material["alphaCutoff"] = mesh.alphaCutoff;
+  }
+  this->Root["materials"].push_back(std::move(material));
   return static_cast<int>(this->Root["materials"].size()) - 1;
 }
 

@@ -7,8 +7,8 @@
 
 namespace lambert {
 /// `model` as the bytes of a GLB file: positions in metres; COLOR_0 linear, 16 bits a band; images
-/// as PNG, sRGB; a material a mesh, one-sided; the camera as a node. Throws Error for a model of
-/// more than 4 GB, which the format cannot hold.
+/// as PNG, sRGB, those of the scene as PNG or JPEG; a material a mesh, one-sided; the camera as a
+/// node. Throws Error for a model of more than 4 GB, which the format cannot hold.
 LAMBERTENGINE_EXPORT std::string GlbOf(const LitModel& model);
 
 /// The same as one JSON text, its buffer in it as base64.

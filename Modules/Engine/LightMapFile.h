@@ -1,10 +1,10 @@
-// Light maps as files: the mesh with its texture coordinates, and a picture of floats a page. C++
-// only.
+// Light maps as files: the mesh with its texture coordinates, and its pages. C++ only.
 #ifndef LightMapFile_h
 #define LightMapFile_h
 
-#include "Atlas/Core/LightMap.h"
+#include "Atlas/Core/LightMapPages.h"
 #include "Atlas/Core/SurfaceRepresentation.h"
+#include "Display/Core/ToneMapping.h"
 #include "Scene/Core/Scene.h"
 #include "lambertEngineModule.h"
 
@@ -12,20 +12,21 @@
 #include <vector>
 
 namespace lambert {
-/// Names of the pages of the light map NAME.vtp: NAME-0.hdr, NAME-1.hdr, ...
-LAMBERTENGINE_EXPORT std::vector<std::string> LightMapPageNames(const std::string& fileName,
-                                                                int pages);
-
-/// Writes NAME.vtp, the mesh of `scene` with LightMapTCoords, ChartId and PageId, and beside it a
-/// page each as Radiance HDR: irradiance, W/m2, three bands, the row of v = 1 first. Throws Error
-/// where a file cannot be written.
-LAMBERTENGINE_EXPORT void WriteLightMap(const RadiosityAtlas& atlas, const LightMap& map,
-                                        const Scene& scene, const std::string& fileName);
+/// Writes NAME.vtp, the mesh of `scene` with LightMapTCoords, ChartId and PageId. Throws Error
+/// where the file cannot be written.
+LAMBERTENGINE_EXPORT void WriteLightMap(const RadiosityAtlas& atlas, const Scene& scene,
+                                        const std::string& fileName);
 
 /// The same of a scene whose surfaces are lit by their points or by the light map: NAME.vtp has
 /// Irradiance at its points, and LightMapTCoords of (-1, -1) where these light.
 LAMBERTENGINE_EXPORT void WriteRepresentedScene(const RepresentedScene& represented,
                                                 const Scene& scene, const std::string& fileName);
+
+/// Writes the pages of the map beside it in every one of `formats`, as LightMapPages.h tells. PNG
+/// shows a white surface in the light, exposed and tone mapped for the solution.
+LAMBERTENGINE_EXPORT void WritePages(const LightMap& map, const RadiositySolution& solution,
+                                     const ToneMappingOptions& tone, const std::string& fileName,
+                                     const std::vector<PageFormat>& formats);
 }  // namespace lambert
 
 #endif

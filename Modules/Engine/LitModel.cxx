@@ -6,9 +6,14 @@
 #include "Display/Core/DefaultCamera.h"
 #include "Display/Core/ToneMapping.h"
 #include "Display/Core/UpAxis.h"
+#include "PngImage.h"
+#include "Scene/Core/BaseTexture.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <numeric>
+#include <tuple>
 
 namespace lambert {
 namespace {
@@ -29,39 +34,138 @@ LitModel EmptyModel(const Scene& scene, const RadiositySolution& solution) {
   return model;
 }
 
-/// Adds `triangles` of the solution with colours at their points.
-void AddColoredMesh(const RadiositySolution& solution, const std::vector<int64_t>& triangles,
-                    const ToneMapping& toneMapping, LitModel* model) {
-  if (triangles.empty()) {
-    return;
-  }
-  std::vector<int64_t> points;
-  TriangleMesh taken = TakeFaces(solution.mesh, triangles, &points);
-  LitMesh lit;
-  lit.name = "lit at its points";
-  lit.positions = std::move(taken.positions);
-  lit.triangles = std::move(taken.triangles);
-  for (int64_t point : points) {
-    const Spectrum display = toneMapping.Apply(solution.radiosity[static_cast<size_t>(point)]);
-    model->clippedPoints += IsClipped(display);
-    lit.colors.emplace_back(LinearFromSrgb(display.r), LinearFromSrgb(display.g),
-                            LinearFromSrgb(display.b));
-  }
-  model->meshes.push_back(std::move(lit));
+/// What the display shows of `light`, linear. Counts what is brighter than it.
+Spectrum LinearDisplay(const ToneMapping& toneMapping, const Spectrum& light, int64_t* clipped) {
+  const Spectrum display = toneMapping.Apply(light);
+  *clipped += IsClipped(display);
+  return {LinearFromSrgb(display.r), LinearFromSrgb(display.g), LinearFromSrgb(display.b)};
 }
 
+/// Adds triangles of the solution, lit at their points.
+class PointLitMeshes {
+ public:
+  PointLitMeshes(const Scene& scene, const RadiositySolution& solution,
+                 const BaseTextures* textures, const ToneMapping& toneMapping, LitModel* model)
+      : scene_(scene),
+        solution_(solution),
+        textures_(textures),
+        toneMapping_(toneMapping),
+        model_(*model) {}
+
+  /// A mesh of what has no texture, and one for each material that has one.
+  void Add(const std::vector<int64_t>& triangles) {
+    std::vector<int64_t> plain;
+    std::map<int32_t, std::vector<int64_t>> textured;
+    for (const int64_t triangle : triangles) {
+      const int64_t face = this->solution_.inputFaceId[static_cast<size_t>(triangle)];
+      if (this->textures_ && this->textures_->IsTextured(face)) {
+        textured[this->scene_.mesh.materialId[static_cast<size_t>(face)]].push_back(triangle);
+      } else {
+        plain.push_back(triangle);
+      }
+    }
+    this->AddColored(plain);
+    for (const auto& [material, ofMaterial] : textured) {
+      this->AddTextured(material, ofMaterial);
+    }
+  }
+
+ private:
+  LitMesh TakeMesh(const std::vector<int64_t>& triangles, std::vector<int64_t>* points) const {
+    TriangleMesh taken = TakeFaces(this->solution_.mesh, triangles, points);
+    LitMesh lit;
+    lit.positions = std::move(taken.positions);
+    lit.triangles = std::move(taken.triangles);
+    return lit;
+  }
+
+  void AddColored(const std::vector<int64_t>& triangles) {
+    if (triangles.empty()) {
+      return;
+    }
+    std::vector<int64_t> points;
+    LitMesh lit = this->TakeMesh(triangles, &points);
+    lit.name = "lit at its points";
+    for (const int64_t point : points) {
+      lit.colors.push_back(LinearDisplay(this->toneMapping_,
+                                         this->solution_.radiosity[static_cast<size_t>(point)],
+                                         &this->model_.clippedPoints));
+    }
+    this->model_.meshes.push_back(std::move(lit));
+  }
+
+  /// Colours by which the mean of the texture becomes what the display shows of the mean.
+  void AddTextured(int32_t material, const std::vector<int64_t>& triangles) {
+    const Material& surface = this->scene_.materials[static_cast<size_t>(material)];
+    const BaseTexture& texture = *surface.baseTexture;
+    std::vector<int64_t> points;
+    LitMesh lit = this->TakeMesh(triangles, &points);
+    lit.name = surface.name;
+    lit.image = this->ImageOf(texture);
+    lit.alphaCutoff = texture.source->decoding.alphaCutoff;
+    for (int band = 0; band < 3; ++band) {
+      lit.factor[band] = std::clamp(texture.factor[band], 0.f, 1.f);
+    }
+    const Spectrum mean = this->textures_->MeanReflectance(material);
+    for (const int64_t point : points) {
+      const size_t p = static_cast<size_t>(point);
+      const Spectrum shown = LinearDisplay(this->toneMapping_, mean * this->solution_.irradiance[p],
+                                           &this->model_.clippedPoints);
+      Spectrum light;
+      bool isClipped = false;
+      for (int band = 0; band < 3; ++band) {
+        light[band] = mean[band] > 0 ? shown[band] / mean[band] : 0;
+        isClipped |= light[band] > 1;
+        light[band] = std::min(1.f, light[band]);
+      }
+      this->model_.clippedPoints += isClipped;
+      lit.colors.push_back(light);
+      lit.textureCoords.push_back(PlaceInImage(texture.map, this->solution_.mesh.uvs[p]));
+    }
+    this->model_.meshes.push_back(std::move(lit));
+  }
+
+  /// v upward.
+  static Vec2f PlaceInImage(const TextureMap& map, const Vec2f& uv) {
+    const auto& m = map.fromUv;
+    return Vec2f(Vec2d(m[0] * uv.x + m[1] * uv.y + m[2], 1 - (m[3] * uv.x + m[4] * uv.y + m[5])));
+  }
+
+  /// The row of its image; materials share one where they look it up alike.
+  int ImageOf(const BaseTexture& texture) {
+    const auto [known, isNew] =
+        this->images_.try_emplace({texture.source.get(), texture.map.wrapU, texture.map.wrapV},
+                                  static_cast<int>(this->model_.images.size()));
+    if (isNew) {
+      LitImage image;
+      image.name = std::filesystem::path(texture.source->name).filename().string();
+      image.file = ViewerImageOf(texture.source->bytes);
+      image.wrapU = texture.map.wrapU;
+      image.wrapV = texture.map.wrapV;
+      this->model_.images.push_back(std::move(image));
+    }
+    return known->second;
+  }
+
+  const Scene& scene_;
+  const RadiositySolution& solution_;
+  const BaseTextures* textures_;  ///< null: means show
+  const ToneMapping& toneMapping_;
+  LitModel& model_;
+  std::map<std::tuple<const TextureSource*, TextureWrap, TextureWrap>, int> images_;
+};
+
 /// A page as an image; clipped texels count where a chart lies.
-LitImage ImageOfPage(const std::vector<Spectrum>& radiosity, const std::vector<int32_t>& faces,
-                     int size, const ToneMapping& toneMapping, int64_t* clipped) {
+LitImage ImageOfPage(const RadiosityPage& page, const ToneMapping& toneMapping, int64_t* clipped) {
   LitImage image;
-  image.width = image.height = size;
-  image.codes.reserve(radiosity.size() * 3);
-  const size_t side = static_cast<size_t>(size);
+  image.width = image.height = page.size;
+  image.codes.reserve(page.texels.size() * 3);
+  const size_t side = static_cast<size_t>(page.size);
   for (size_t row = side; row-- > 0;) {
     for (size_t texel = row * side; texel < (row + 1) * side; ++texel) {
-      const Spectrum display = toneMapping.Apply(radiosity[texel]);
-      *clipped += faces[texel] >= 0 && IsClipped(display);
-      for (uint8_t code : toneMapping.ApplyToBytes(radiosity[texel])) {
+      const Spectrum display = toneMapping.Apply(page.texels[texel]);
+      *clipped += page.isInChart[texel] && IsClipped(display);
+      for (const uint8_t code : ToneMapping::Codes(display)) {
         image.codes.push_back(code);
       }
     }
@@ -69,14 +173,17 @@ LitImage ImageOfPage(const std::vector<Spectrum>& radiosity, const std::vector<i
   return image;
 }
 
-/// Faces whose light the map holds: by face, whether the side that shows is lit. The triangles of
-/// the solution that lie on other sides go to `others`.
+/// Faces whose light the map holds, but for those that `keeps` its textures: by face, whether the
+/// side that shows is lit. The triangles of the solution that lie elsewhere go to `others`.
+template <class Keeps>
 std::vector<bool> MappedFaces(const TriangleMesh& mesh, const RadiositySolution& solution,
-                              const std::vector<uint8_t>& sides, std::vector<int64_t>* others) {
+                              const std::vector<uint8_t>& sides, const Keeps& keeps,
+                              std::vector<int64_t>* others) {
   std::vector<bool> isMapped(mesh.triangles.size(), false);
   for (size_t triangle = 0; triangle < solution.side.size(); ++triangle) {
     const size_t face = static_cast<size_t>(solution.inputFaceId[triangle]);
-    if (solution.side[triangle] == sides[static_cast<size_t>(mesh.surfaceId[face])]) {
+    if (!keeps(solution.inputFaceId[triangle]) &&
+        solution.side[triangle] == sides[static_cast<size_t>(mesh.surfaceId[face])]) {
       isMapped[face] = true;
     } else {
       others->push_back(static_cast<int64_t>(triangle));
@@ -112,26 +219,35 @@ LitMesh MeshOfPage(const TriangleMesh& split, const std::vector<Vec2f>& textureC
 }  // namespace
 
 LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
-                      const ToneMappingOptions& tone) {
+                      const LitModelOptions& options) {
   LitModel model = EmptyModel(scene, solution);
+  const BaseTextures textures(scene);
+  const ToneMapping toneMapping = AdaptTo(solution, options.tone);
   std::vector<int64_t> triangles(solution.mesh.triangles.size());
   std::iota(triangles.begin(), triangles.end(), int64_t(0));
-  AddColoredMesh(solution, triangles, AdaptTo(solution, tone), &model);
+  const BaseTextures* shown = options.texturesAtPoints ? &textures : nullptr;
+  PointLitMeshes(scene, solution, shown, toneMapping, &model).Add(triangles);
   return model;
 }
 
 LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
                       const RadiosityAtlas& atlas, const LightMap& map,
-                      const ToneMappingOptions& tone) {
+                      const LitModelOptions& options) {
   // What leaves the surfaces, and the sides on which it shows.
   LitModel model = EmptyModel(scene, solution);
-  const ToneMapping toneMapping = AdaptTo(solution, tone);
+  const BaseTextures textures(scene);
+  const ToneMapping toneMapping = AdaptTo(solution, options.tone);
   const std::vector<uint8_t> sides = BrighterSidesOfSurfaces(scene.mesh, solution);
-  const std::vector<std::vector<Spectrum>> pages = MakeRadiosityMap(scene.mesh, atlas, map, sides);
+  const std::vector<RadiosityPage> pages = MakeRadiosityMap(
+      scene.mesh, atlas, map, sides, options.keepTextures ? nullptr : &textures, options.bakedSize);
 
   // Faces of the map, a mesh and an image a page.
   std::vector<int64_t> others;
-  const std::vector<bool> isMapped = MappedFaces(scene.mesh, solution, sides, &others);
+  const auto keepsTexture = [&](int64_t face) {
+    return options.keepTextures && textures.IsTextured(face);
+  };
+  const std::vector<bool> isMapped =
+      MappedFaces(scene.mesh, solution, sides, keepsTexture, &others);
   TriangleMesh split = scene.mesh;
   const std::vector<Vec2f> textureCoords = SplitAtCharts(atlas, &split);
   std::vector<int32_t> pageOfFace;
@@ -143,16 +259,18 @@ LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
     if (mesh.triangles.empty()) {
       continue;
     }
+    const RadiosityPage& radiosity = pages[static_cast<size_t>(page)];
     mesh.name = "light map " + std::to_string(page);
     mesh.image = static_cast<int>(model.images.size());
-    model.images.push_back(ImageOfPage(pages[static_cast<size_t>(page)], FacesOfTexels(atlas, page),
-                                       map.pageSize, toneMapping, &model.clippedTexels));
+    model.images.push_back(ImageOfPage(radiosity, toneMapping, &model.clippedTexels));
     model.images.back().name = mesh.name;
+    model.bakedTexels += radiosity.isTextured ? int64_t(radiosity.texels.size()) : 0;
     model.meshes.push_back(std::move(mesh));
   }
 
   // Lit sides that it does not hold.
-  AddColoredMesh(solution, others, toneMapping, &model);
+  const BaseTextures* shown = options.texturesAtPoints ? &textures : nullptr;
+  PointLitMeshes(scene, solution, shown, toneMapping, &model).Add(others);
   return model;
 }
 }  // namespace lambert

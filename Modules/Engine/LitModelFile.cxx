@@ -3,6 +3,7 @@
 #include "Common/Core/Error.h"
 #include "GltfFile.h"
 #include "HtmlFile.h"
+#include "ObjFile.h"
 #include "SolutionFile.h"
 
 #include <fstream>
@@ -20,13 +21,15 @@ void WriteBytes(const std::string& bytes, const std::string& fileName) {
 
 bool IsLitModelFileName(const std::string& fileName) {
   const std::string ending = FileEnding(fileName);
-  return ending == ".glb" || ending == ".gltf" || ending == ".html";
+  return ending == ".glb" || ending == ".gltf" || ending == ".html" || ending == ".obj";
 }
 
 void WriteLitModel(const LitModel& model, const std::string& fileName) {
   const std::string ending = FileEnding(fileName);
   if (ending == ".html") {
     WriteBytes(HtmlOf(model), fileName);
+  } else if (ending == ".obj") {
+    WriteObj(model, fileName);
   } else {
     WriteBytes(ending == ".glb" ? GlbOf(model) : GltfOf(model), fileName);
   }

@@ -197,19 +197,9 @@ void RadiosityRun::Represent(const ProgressCallback& progress) {
   RepresentationOptions options;
   options.introducedTriangles = this->options_.introducedTriangles.value_or(0);
   const TriangleMesh& mesh = this->scene_.mesh;
-  options.wanted.resize(this->tree_.surfaceRoots.size(), this->options_.introducedTriangles
-                                                             ? Representation::Automatic
-                                                             : Representation::LightMap);
-  for (size_t surface = 0; surface < options.wanted.size(); ++surface) {
-    const int32_t root = this->tree_.surfaceRoots[surface];
-    const int32_t face = this->tree_.nodes[static_cast<size_t>(root)].firstFace;
-    const int32_t material = mesh.materialId[static_cast<size_t>(face)];
-    const auto wanted = this->options_.representations.find(
-        this->scene_.materials[static_cast<size_t>(material)].name);
-    if (wanted != this->options_.representations.end()) {
-      options.wanted[surface] = wanted->second;
-    }
-  }
+  options.wanted = RepresentationsByMaterial(
+      mesh, this->tree_, this->scene_.materials, this->options_.representations,
+      this->options_.introducedTriangles ? Representation::Automatic : Representation::LightMap);
 
   // Both kinds.
   Timer timer;
@@ -236,10 +226,10 @@ void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
   this->AddStage("light map", timer.Seconds());
 }
 
-void RadiosityRun::DrawModel(const ToneMappingOptions& tone, const std::optional<Camera>& camera) {
+void RadiosityRun::DrawModel(const LitModelOptions& options, const std::optional<Camera>& camera) {
   this->model_ = this->lightMap_ ? MakeLitModel(this->scene_, this->solution_, this->atlas_,
-                                                *this->lightMap_, tone)
-                                 : MakeLitModel(this->scene_, this->solution_, tone);
+                                                *this->lightMap_, options)
+                                 : MakeLitModel(this->scene_, this->solution_, options);
   if (camera) {
     this->model_->camera = *camera;
   }

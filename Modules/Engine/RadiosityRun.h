@@ -69,7 +69,7 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   /// Makes what viewers draw: of the light map where there is one, else of the points. The camera
   /// is `camera`, else that of the scene, else one that is chosen. Not where surfaces are
   /// represented in both ways.
-  void DrawModel(const ToneMappingOptions& tone = {}, const std::optional<Camera>& camera = {});
+  void DrawModel(const LitModelOptions& options = {}, const std::optional<Camera>& camera = {});
   /// Measures how far the solution is from a path-traced reference at `points` points; with up to
   /// four times the paths where those leave open whether the request is met.
   void Verify(int points, const ProgressCallback& progress = {});

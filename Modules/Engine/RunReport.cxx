@@ -242,6 +242,7 @@ std::string RunReportJson(const RadiosityRun& run, const std::string& version) {
     const LitModel& model = *run.DrawnModel();
     report["lit_model"] = {{"meshes", model.meshes.size()},
                            {"images", model.images.size()},
+                           {"baked_texels", model.bakedTexels},
                            {"clipped_points", model.clippedPoints},
                            {"clipped_texels", model.clippedTexels}};
   }

@@ -4,7 +4,7 @@ import json
 import numpy as np
 from CommandLine import CORNELL_BOX, DATA, run, temporary
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkHDRReader
+from vtkmodules.vtkIOImage import vtkHDRReader, vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 SIZE = 256
@@ -57,6 +57,23 @@ lit = np.array([r[9] == "surface" for r in rows]) & (probed.mean(axis=1) > 0.05 
 assert lit.sum() > 20
 assert np.median(np.abs(found[lit] - probed[lit]).mean(axis=1) / probed[lit].mean(axis=1)) < 0.05
 
+# The same pages as floats and, in linear tone, as codes: these are proportional to the light.
+other = run("solve", *common, "--page-format", "exr", "--page-format", "png", "--tone", "linear", "--exposure", "-1")
+assert other.returncode == 0, other.stderr
+with open(mapped.replace(".vtp", "-0.exr"), "rb") as file:
+    assert file.read(4) == b"\x76\x2f\x31\x01"  # Its texels are the business of LightMapPagesTest.
+reader = vtkPNGReader()
+reader.SetFileName(mapped.replace(".vtp", "-0.png"))
+reader.Update()
+codes = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).reshape(SIZE, SIZE, 3) / 255.
+shown = np.where(codes <= 0.04045, codes / 12.92, ((codes + 0.055) / 1.055) ** 2.4)
+brightest = np.arange(3) == page.argmax(axis=2)[:, :, None]
+seen = brightest & (codes > 0.4) & (codes.max(axis=2) < 1)[:, :, None]
+assert seen.sum() > SIZE * SIZE / 4
+ratio = shown[seen] / page[seen]
+# Half a code of 102 is 1.2 %, half a step of Radiance 0.4 % and less.
+assert np.abs(ratio / np.median(ratio) - 1).max() < 0.02, np.abs(ratio / np.median(ratio) - 1).max()
+
 # A smooth closed surface has seams; closing them takes most of the difference.
 sphere = run("solve", f"{DATA}/SphereByLamp/SphereByLamp.obj", "-o", solved, "--error", "0.2", "--lightmap", mapped,
              "--page-size", "512", "--report", report)
@@ -67,7 +84,8 @@ assert told["seams_after"]["rms"] < 0.3 * told["seams_before"]["rms"]
 assert told["seams_after"]["largest"] <= told["seams_before"]["largest"]
 
 # Options of the atlas ask for a light map; names are checked first.
-for wrong, code in ((["--page-size", "64"], 2), (["--lightmap", temporary("map.obj")], 2),
+for wrong, code in ((["--page-size", "64"], 2), (["--page-format", "exr"], 2), (["--lightmap", mapped, "--page-format", "gif"], 2),
+                    (["--lightmap", temporary("map.obj")], 2),
                     (["--lightmap", "/nowhere/map.vtp"], 1), (["--lightmap", solved], 2)):
     failed = run("solve", CORNELL_BOX, "-o", solved, *wrong)
     assert failed.returncode == code and failed.stderr.strip(), (wrong, failed.returncode, failed.stderr)

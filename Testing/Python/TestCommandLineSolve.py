@@ -101,6 +101,23 @@ for more in ([], ["--both-sides"]):
     assert b"property float irradiance_r" in header
 assert counts[0] <= counts[1] == report["output"]["triangles"]
 
+# Both sides are the whole solution: position, normal and irradiance of each corner are the floats of the VTP file.
+solve(CORNELL_BOX, "-o", out, "--error", "0.3", "--iterations", "2")
+reader = vtkXMLPolyDataReader()
+reader.SetFileName(out)
+reader.Update()
+solved = reader.GetOutput()
+with open(ply, "rb") as file:
+    data = file.read()
+body = data[data.index(b"end_header\n") + len(b"end_header\n"):]
+vertex = np.dtype([("place", "<f4", 3), ("normal", "<f4", 3), ("code", "u1", 3), ("irradiance", "<f4", 3)])
+vertices = np.frombuffer(body, vertex, lit.GetNumberOfPoints())
+faces = np.frombuffer(body, np.dtype([("count", "u1"), ("corners", "<i4", 3)]), counts[1], vertices.nbytes)["corners"]
+corners = vtk_to_numpy(solved.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+for field, array in (("place", solved.GetPoints().GetData()), ("normal", solved.GetPointData().GetNormals()),
+                     ("irradiance", solved.GetPointData().GetArray("Irradiance"))):
+    assert np.array_equal(vertices[field][faces], vtk_to_numpy(array)[corners]), field
+
 # A probe on a surface reads what the file delivers there: corner, middle and normal of a triangle.
 triangles = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
 xyz = vtk_to_numpy(mesh.GetPoints().GetData())

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "Atlas/Core/ConformalMap.h"
 #include "Clustering/Core/ClusterFrame.h"
@@ -26,20 +27,31 @@ std::vector<Vec2d> MapOfFace(const ChartMesh& chart) {
   return map;
 }
 
-/// Neither side of its upright rectangle is longer than `longest`; or no cut makes it shorter, as
-/// one of its edges is.
-bool IsWithin(const ChartMesh& mesh, const std::vector<Vec2d>& map, double longest) {
-  if (!(longest > 0)) return true;
+/// Extents that a chart may be refused for: at least `edge`, its longest one, of which no cut makes
+/// it rid, and under `extent`, the longer side of its upright rectangle; m.
+struct Refusal {
+  double edge = 0, extent = 0;
+
+  bool IsFor(double longest) const { return edge <= longest && longest < extent; }
+};
+
+Refusal RefusalOf(const ChartMesh& mesh, const std::vector<Vec2d>& map) {
+  Refusal refusal;
   Vec2d low = map.front(), high = map.front();
   for (const Vec2d& p : map) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  if (std::max(high.x - low.x, high.y - low.y) <= longest) return true;
+  refusal.extent = std::max(high.x - low.x, high.y - low.y);
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (Flatten(mesh, t).length > longest) return true;
+    refusal.edge = std::max(refusal.edge, Flatten(mesh, t).length);
   }
-  return false;
+  return refusal;
+}
+
+/// What is taken for no limit is one that no chart reaches.
+double LongestOf(const ChartOptions& options) {
+  return options.longest > 0 ? options.longest : std::numeric_limits<double>::max();
 }
 
 /// Its smallest rectangle has no more empty space.
@@ -57,6 +69,7 @@ class Segmentation {
       : mesh_(mesh), tree_(tree), options_(options), neighbours_(FindNeighbours(mesh)) {
     set_.places.resize(size_t(mesh.FaceCount()));
     set_.corners.resize(size_t(mesh.FaceCount()));
+    set_.options = options;
   }
 
   /// Clusters of one level of the tree after the other; those that fail hand on to their children.
@@ -67,8 +80,11 @@ class Segmentation {
       const double fraction = double(done) / double(std::max<int64_t>(1, mesh_.FaceCount()));
       if (!Report(progress, fraction, "cutting into charts")) throw Cancelled();
       std::vector<Chart> flat(open.size());
-      ParallelForEach(int64_t(open.size()), 1,
-                      [&](int64_t i) { flat[size_t(i)] = this->TryToFlatten(open[size_t(i)]); });
+      std::vector<Refusal> refusals(open.size());
+      ParallelForEach(int64_t(open.size()), 1, [&](int64_t i) {
+        flat[size_t(i)] = this->TryToFlatten(open[size_t(i)], &refusals[size_t(i)]);
+      });
+      for (const Refusal& refusal : refusals) this->Narrow(refusal);
       std::vector<int32_t> children;
       for (size_t i = 0; i < open.size(); ++i) {
         if (flat[i].cornerCount > 0) {
@@ -88,8 +104,20 @@ class Segmentation {
   }
 
  private:
-  /// The chart of a cluster; one without corners where it cannot be laid flat.
-  Chart TryToFlatten(int32_t index) {
+  /// The charts are the same for any longest extent on this side of both ends of `refusal`.
+  void Narrow(const Refusal& refusal) {
+    for (const double end : {refusal.edge, refusal.extent}) {
+      if (end <= LongestOf(options_)) {
+        set_.leastLongest = std::max(set_.leastLongest, end);
+      } else {
+        set_.mostLongest = std::min(set_.mostLongest, end);
+      }
+    }
+  }
+
+  /// The chart of a cluster; one without corners where it cannot be laid flat. What it may be
+  /// refused for, where its extent was looked at.
+  Chart TryToFlatten(int32_t index, Refusal* refusal) {
     const ClusterNode& node = tree_.nodes[size_t(index)];
     const ChartMesh mesh = MakeChartMesh(mesh_, neighbours_, node.firstFace, node.faceCount);
     Chart chart{index, node.firstFace, node.faceCount, int32_t(mesh.positions.size()), true};
@@ -112,7 +140,8 @@ class Segmentation {
       stretch = map.empty() ? 0 : Stretch(mesh, map);
       if (!(stretch > 0 && stretch <= options_.stretch)) return {};
     }
-    if (!IsWithin(mesh, map, options_.longest)) return {};
+    *refusal = RefusalOf(mesh, map);
+    if (refusal->IsFor(LongestOf(options_))) return {};
     if (!IsFull(map, double(node.area), options_.mostEmpty)) return {};
     chart.stretch = float(stretch);
     this->Keep(chart, mesh, map);
@@ -139,6 +168,12 @@ class Segmentation {
 };
 
 }  // namespace
+
+bool ChartSet::IsOf(const ChartOptions& other) const {
+  return !charts.empty() && other.stretch == options.stretch &&
+         other.mostEmpty == options.mostEmpty && LongestOf(other) >= leastLongest &&
+         LongestOf(other) < mostLongest;
+}
 
 std::vector<int32_t> ChartOfFace(const ChartSet& set) {
   std::vector<int32_t> chartOfFace(set.places.size());

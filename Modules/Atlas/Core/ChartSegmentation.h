@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "Clustering/Core/FaceClustering.h"
@@ -37,6 +38,13 @@ struct ChartSet {
   std::vector<std::array<Vec2f, 3>> places;
   /// By face: of its corners within their chart, [0, cornerCount); one number, one place.
   std::vector<std::array<int32_t, 3>> corners;
+
+  ChartOptions options;  ///< that they were cut by
+  /// The extents from which and under which ChartOptions::longest leaves all charts as they are, m.
+  double leastLongest = 0, mostLongest = std::numeric_limits<double>::infinity();
+
+  /// Whether `other` options cut the same mesh into the same charts, as far as is known.
+  bool IsOf(const ChartOptions& other) const;
 };
 
 /// By face: its chart.

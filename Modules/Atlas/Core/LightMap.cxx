@@ -18,6 +18,8 @@ namespace {
 constexpr double kStay = 0.1;
 constexpr double kSolverTolerance = 1e-6;
 constexpr int kMostSolverSteps = 1000;
+/// Parts of a face and of its coordinates by which a triangle may lie beside it: rounding.
+constexpr float kOnFace = 1e-5f;
 
 /// The four texels around a place and their parts of a lookup there.
 struct Footprint {
@@ -314,6 +316,28 @@ void CloseSeams(const std::vector<SeamPoint>& seams, double mean, LightMap* map)
   }
 }
 
+/// Throws Error where a triangle of the solution does not lie on its face: of another mesh, or of
+/// the same one in another order.
+void RequireSameFaces(const TriangleMesh& mesh, const RadiositySolution& solution) {
+  for (size_t t = 0; t < solution.inputFaceId.size(); ++t) {
+    const int64_t face = solution.inputFaceId[t];
+    if (face < 0 || face >= mesh.FaceCount()) {
+      throw Error("The solution lies on face " + std::to_string(face) + ", which the mesh lacks.");
+    }
+    Box3f bounds;
+    for (int c = 0; c < 3; ++c) bounds.Include(mesh.Corner(face, c));
+    Vec3f middle;
+    for (int c = 0; c < 3; ++c) middle += solution.mesh.Corner(int64_t(t), c) / 3.f;
+    const float slack = kOnFace * (bounds.Diagonal() + Length(middle));
+    const Vec3f below = bounds.low - middle, above = middle - bounds.high;
+    if (std::max({below.x, below.y, below.z, above.x, above.y, above.z}) > slack) {
+      throw Error("The solution is not of this mesh: triangle " + std::to_string(t) +
+                  " lies beside its face " + std::to_string(face) +
+                  "; cluster the faces before both solving and laying flat.");
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<uint8_t> BrighterSidesOfSurfaces(const TriangleMesh& mesh,
@@ -339,11 +363,7 @@ LightMap MakeLightMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
     throw Error("The atlas holds " + std::to_string(atlas.textureCoords.size()) +
                 " faces, the mesh " + std::to_string(mesh.triangles.size()) + ".");
   }
-  for (const int64_t face : solution.inputFaceId) {
-    if (face < 0 || face >= mesh.FaceCount()) {
-      throw Error("The solution lies on face " + std::to_string(face) + ", which the mesh lacks.");
-    }
-  }
+  RequireSameFaces(mesh, solution);
   const std::vector<int32_t> chartOfFace = ChartOfFace(atlas.set);
 
   // Light where triangles are, and around them.

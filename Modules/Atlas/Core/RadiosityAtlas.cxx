@@ -209,26 +209,40 @@ double FillPages(const Layout& layout, const AtlasOptions& options, Packing* pac
 
 }  // namespace
 
-RadiosityAtlas MakeRadiosityAtlas(const TriangleMesh& mesh, const ClusterTree& tree,
-                                  const AtlasOptions& options, const ProgressCallback& progress) {
+ChartOptions ChartOptionsOf(const ClusterTree& tree, const AtlasOptions& options) {
   RequireAtlasOptions(options);
-
-  // Charts; none longer than a page, where the texels are as small as they will be about.
-  RadiosityAtlas atlas;
-  Timer timer;
-  ChartOptions chartOptions;
-  chartOptions.stretch = options.stretch;
   double area = 0;
   for (const int32_t root : tree.surfaceRoots) area += double(tree.nodes[size_t(root)].area);
+
+  // None longer than a page, where the texels are as small as they will be about.
+  ChartOptions chartOptions;
+  chartOptions.stretch = options.stretch;
   chartOptions.longest = Room(options) / FirstDensity(options, area);
   chartOptions.mostEmpty = kMostEmpty * area;
-  atlas.set = CutIntoCharts(mesh, tree, chartOptions, [&](double fraction, const char* stage) {
+  return chartOptions;
+}
+
+RadiosityAtlas MakeRadiosityAtlas(const TriangleMesh& mesh, const ClusterTree& tree,
+                                  const AtlasOptions& options, const ProgressCallback& progress) {
+  const ChartOptions chartOptions = ChartOptionsOf(tree, options);
+  Timer timer;
+  ChartSet set = CutIntoCharts(mesh, tree, chartOptions, [&](double fraction, const char* stage) {
     return Report(progress, 0.6 * fraction, stage);
   });
-  atlas.chartSeconds = timer.Seconds();
+  const double chartSeconds = timer.Seconds();
+  RadiosityAtlas atlas = PackAtlas(std::move(set), options, progress);
+  atlas.chartSeconds = chartSeconds;
+  return atlas;
+}
 
-  // Their places on the pages.
-  timer.Restart();
+RadiosityAtlas PackAtlas(ChartSet set, const AtlasOptions& options,
+                         const ProgressCallback& progress) {
+  RequireAtlasOptions(options);
+  RadiosityAtlas atlas;
+  atlas.set = std::move(set);
+
+  // How large texels are, and where charts lie at that.
+  Timer timer;
   const Layout layout(atlas.set, options);
   Packing packing;
   double density = 0;
@@ -244,12 +258,14 @@ RadiosityAtlas MakeRadiosityAtlas(const TriangleMesh& mesh, const ClusterTree& t
                   std::to_string(options.pageSize) + " texels; give more or larger pages.");
     }
   }
+
+  // Their places on the pages.
   atlas.pages = packing.pages;
   atlas.pageSize = options.pageSize;
   atlas.padding = options.padding;
   atlas.texelSize = density > 0 ? 1 / density : 0;
   atlas.pageOfChart.resize(atlas.set.charts.size());
-  atlas.textureCoords.resize(size_t(mesh.FaceCount()));
+  atlas.textureCoords.resize(atlas.set.places.size());
   ParallelForEach(int64_t(atlas.set.charts.size()), 16, [&](int64_t i) {
     const Chart& chart = atlas.set.charts[size_t(i)];
     const ChartPlace& place = packing.places[size_t(i)];
@@ -275,7 +291,8 @@ RadiosityAtlas MakeRadiosityAtlas(const TriangleMesh& mesh, const ClusterTree& t
   return atlas;
 }
 
-std::vector<Vec2f> SplitAtCharts(const RadiosityAtlas& atlas, TriangleMesh* mesh) {
+std::vector<Vec2f> SplitAtCharts(const RadiosityAtlas& atlas, TriangleMesh* mesh,
+                                 std::vector<int64_t>* points) {
   TriangleMesh split;
   std::vector<Vec2f> textureCoords;
   std::vector<std::array<int32_t, 3>> triangles(mesh->triangles.size());
@@ -293,6 +310,7 @@ std::vector<Vec2f> SplitAtCharts(const RadiosityAtlas& atlas, TriangleMesh* mesh
         if (!mesh->normals.empty()) split.normals.push_back(mesh->normals[size_t(old)]);
         if (!mesh->uvs.empty()) split.uvs.push_back(mesh->uvs[size_t(old)]);
         textureCoords.push_back(atlas.textureCoords[f][c]);
+        if (points) points->push_back(old);
       }
     }
   }

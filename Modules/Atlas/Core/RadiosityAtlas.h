@@ -35,9 +35,19 @@ RadiosityAtlas MakeRadiosityAtlas(const TriangleMesh& mesh, const ClusterTree& t
                                   const AtlasOptions& options = {},
                                   const ProgressCallback& progress = {});
 
+///@{ Its two steps, for those who repeat one of them. The charts that the options ask for, to be
+/// cut
+/// by CutIntoCharts; ChartSet::IsOf tells whether those of other options will do. And their places
+/// on pages. Throw as above.
+ChartOptions ChartOptionsOf(const ClusterTree& tree, const AtlasOptions& options);
+RadiosityAtlas PackAtlas(ChartSet set, const AtlasOptions& options,
+                         const ProgressCallback& progress = {});
+///@}
+
 /// Gives every chart points of its own: a point whose charts or places in them differ becomes
-/// several. Returns the texture coordinates of each, [0, 1].
-std::vector<Vec2f> SplitAtCharts(const RadiosityAtlas& atlas, TriangleMesh* mesh);
+/// several. Returns the texture coordinates of each, [0, 1], and the points that they were.
+std::vector<Vec2f> SplitAtCharts(const RadiosityAtlas& atlas, TriangleMesh* mesh,
+                                 std::vector<int64_t>* points = nullptr);
 
 /// By texel of a page, row after row from below: the face that holds its middle; -1 where none
 /// does.

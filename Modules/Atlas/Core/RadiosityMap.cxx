@@ -4,7 +4,9 @@
 #include <array>
 #include <string>
 
+#include "Atlas/Core/TexelRaster.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/Parallel.h"
 
 namespace lambert {
 
@@ -53,12 +55,42 @@ void SpreadFaces(int size, std::vector<int32_t>* faces) {
   }
 }
 
+/// Whose texel it is, of a page of `atlas`, everywhere.
+std::vector<int32_t> NearestFaces(const RadiosityAtlas& atlas, int page,
+                                  std::vector<uint8_t>* isInChart) {
+  std::vector<int32_t> faces = FacesOfTexels(atlas, page);
+  for (const int32_t face : faces) isInChart->push_back(face >= 0);
+  AddSmallFaces(atlas, page, &faces);
+  SpreadFaces(atlas.pageSize, &faces);
+  return faces;
+}
+
+/// By page: whether it holds a face with a base texture.
+std::vector<bool> TexturedPages(const RadiosityAtlas& atlas, const BaseTextures* textures) {
+  std::vector<bool> isTextured(size_t(atlas.pages), false);
+  for (size_t i = 0; textures && i < atlas.set.charts.size(); ++i) {
+    const Chart& chart = atlas.set.charts[i];
+    for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+      if (textures->IsTextured(f)) isTextured[size_t(atlas.pageOfChart[i])] = true;
+    }
+  }
+  return isTextured;
+}
+
+/// Reflectance at a place of an atlas, by the texture where the face has one.
+Spectrum ReflectanceAt(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
+                       const BaseTextures* textures, int64_t face, const Vec2d& place) {
+  if (!textures || !textures->IsTextured(face)) return mesh.reflectance[size_t(face)];
+  std::array<Vec2d, 3> corners;
+  for (size_t c = 0; c < 3; ++c) corners[c] = Vec2d(atlas.textureCoords[size_t(face)][c]);
+  return textures->Reflectance(face, Barycentric(corners, place), atlas.texelSize);
+}
+
 }  // namespace
 
-std::vector<std::vector<Spectrum>> MakeRadiosityMap(const TriangleMesh& mesh,
-                                                    const RadiosityAtlas& atlas,
-                                                    const LightMap& map,
-                                                    const std::vector<uint8_t>& sides) {
+std::vector<RadiosityPage> MakeRadiosityMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
+                                            const LightMap& map, const std::vector<uint8_t>& sides,
+                                            const BaseTextures* textures, int texturedSize) {
   // The four belong together.
   if (atlas.textureCoords.size() != mesh.triangles.size() || map.pageSize != atlas.pageSize ||
       map.pages.size() != size_t(atlas.pages)) {
@@ -66,22 +98,37 @@ std::vector<std::vector<Spectrum>> MakeRadiosityMap(const TriangleMesh& mesh,
                 std::to_string(mesh.triangles.size()) + " faces.");
   }
 
-  std::vector<std::vector<Spectrum>> pages(map.pages.size());
-  for (size_t page = 0; page < pages.size(); ++page) {
-    // Whose texel it is.
-    std::vector<int32_t> faces = FacesOfTexels(atlas, int(page));
-    AddSmallFaces(atlas, int(page), &faces);
-    SpreadFaces(atlas.pageSize, &faces);
+  // The same atlas on pages of finer texels, for textures.
+  const int parts = std::max(1, texturedSize / atlas.pageSize);
+  RadiosityAtlas fine = atlas;
+  fine.pageSize *= parts;
+  fine.texelSize /= parts;
 
-    // What leaves it.
-    pages[page] = map.pages[page];
-    for (size_t texel = 0; texel < faces.size(); ++texel) {
-      if (faces[texel] < 0) continue;
-      const size_t face = size_t(faces[texel]);
-      const auto side = static_cast<Side>(sides.at(size_t(mesh.surfaceId[face])));
-      pages[page][texel] = pages[page][texel] * mesh.reflectance[face];
-      if (mesh.Emits(int64_t(face), side)) pages[page][texel] += mesh.emittance[face];
-    }
+  const std::vector<bool> isTextured = TexturedPages(atlas, textures);
+  std::vector<RadiosityPage> pages(map.pages.size());
+  for (size_t p = 0; p < pages.size(); ++p) {
+    const RadiosityAtlas& drawn = isTextured[p] ? fine : atlas;
+    const bool isFiner = drawn.pageSize > map.pageSize;
+    RadiosityPage& page = pages[p];
+    page.size = drawn.pageSize;
+    page.isTextured = isTextured[p];
+    const std::vector<int32_t> faces = NearestFaces(drawn, int(p), &page.isInChart);
+
+    // What leaves it, row by row.
+    page.texels.resize(faces.size());
+    ParallelForEach(page.size, 16, [&](int64_t y) {
+      for (int x = 0; x < page.size; ++x) {
+        const size_t texel = size_t(y) * size_t(page.size) + size_t(x);
+        const Vec2d place((x + 0.5) / page.size, (double(y) + 0.5) / page.size);
+        Spectrum& radiosity = page.texels[texel];
+        radiosity = isFiner ? Lookup(map, int(p), Vec2f(place)) : map.pages[p][texel];
+        const int32_t face = faces[texel];
+        if (face < 0) continue;
+        const auto side = static_cast<Side>(sides.at(size_t(mesh.surfaceId[size_t(face)])));
+        radiosity = radiosity * ReflectanceAt(mesh, drawn, textures, face, place);
+        if (mesh.Emits(face, side)) radiosity += mesh.emittance[size_t(face)];
+      }
+    });
   }
   return pages;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,11 +12,15 @@
 
 namespace lambert {
 
+struct BaseTexture;
+
 struct Material {
   std::string name;
   Spectrum reflectance{0.5f};  ///< diffuse, [0, 0.98]; faces carry the value that counts (textures differ by face)
   Spectrum emittance;          ///< exitance of each emitting side, W/m2
   bool twoSidedEmitter = false;
+  /// What the faces' reflectances are means of; null where no point can be looked up in it.
+  std::shared_ptr<const BaseTexture> baseTexture;
 };
 
 /// A piece of the scene as it came in: one actor or one node of a file. Its faces and points lie together.

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "Common/Core/Error.h"
+#include "Scene/Core/BaseTexture.h"
 
 namespace lambert {
 
@@ -134,6 +135,21 @@ Spectrum ClampReflectance(const Spectrum& value, bool* over) {
   return clamped;
 }
 
+namespace {
+
+/// The base texture as one that points are looked up in. Of metals that are black the mean counts,
+/// and of what lies on other texture coordinates than the mesh keeps.
+std::shared_ptr<const BaseTexture> KeptTexture(const SurfaceMaterial& source,
+                                               const ReadContext& context) {
+  const bool isDarkened = context.options.blackMetals && source.metallic > 0;
+  if (!source.base || source.base.uvSet != 0 || isDarkened) return nullptr;
+  const auto image = context.textures.Source(source.base);
+  if (!image) return nullptr;
+  return std::make_shared<BaseTexture>(BaseTexture{image, source.base, source.reflectance});
+}
+
+}  // namespace
+
 int32_t AppendMaterial(const SurfaceMaterial& source, const std::string& file,
                        const ReadContext& context) {
   if (!source.reflectance.IsFinite() || !source.emittance.IsFinite()) {
@@ -147,6 +163,7 @@ int32_t AppendMaterial(const SurfaceMaterial& source, const std::string& file,
   for (int band = 0; band < 3; ++band)
     material.emittance[band] = std::max(0.f, source.emittance[band]);
   material.twoSidedEmitter = source.twoSidedEmitter;
+  material.baseTexture = KeptTexture(source, context);
   context.assembly.report.maskedMaterials += source.masked;
   context.assembly.materials.push_back(material);
   return int32_t(context.assembly.materials.size()) - 1;

@@ -31,6 +31,11 @@ struct SurfaceMaterial {
   bool hasAlpha = false;  ///< the base texture's alpha counts
   VertexColourUse vertexColours = VertexColourUse::Replaces;
   TextureMap base, emissive, opacityMap, metallicMap;
+
+  /// Whether vertex colours, where a mesh has them, count.
+  bool TakesVertexColours() const {
+    return vertexColours == VertexColourUse::Multiplies || !hasReflectance;
+  }
 };
 
 /// What file readers work on: the scene that grows, what is asked for, and the images met so far.

@@ -217,8 +217,8 @@ class FaceMaterials {
   }
 
   void ApplyVertexColours(const std::array<int32_t, 3>& triangle, Spectrum* reflectance) const {
+    if (!material_.TakesVertexColours()) return;
     const bool linear = material_.vertexColours == VertexColourUse::Multiplies;
-    if (!linear && material_.hasReflectance) return;
     Spectrum sum;
     for (const int32_t point : triangle) {
       const aiColor4D& c = source_.mColors[0][point];
@@ -272,6 +272,12 @@ TriangleMesh ReadMesh(const aiMesh& source, const SurfaceMaterial& material, int
   ReadPoints(source, keepNormals, file, &all);
   ReadTriangles(source, file, &report, &all);
   MendNormals(source, file, context, &all);
+
+  // A texture that vertex colours stand for or tint, or that lies on no coordinates, cannot be
+  // looked up alone.
+  if ((source.HasVertexColors(0) && material.TakesVertexColours()) || !source.HasTextureCoords(0)) {
+    context.assembly.materials[size_t(materialId)].baseTexture = nullptr;
+  }
 
   // Materials of the faces.
   const FaceMaterials evaluator(source, material, context);

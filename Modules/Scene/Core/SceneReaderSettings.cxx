@@ -51,6 +51,7 @@ void SetReflectance(const Spectrum& asked, size_t row, SceneAssembly* assembly) 
   const Spectrum value = ClampReflectance(asked, &over);
   assembly->report.materialsClamped += over;
   assembly->materials[row].reflectance = value;
+  assembly->materials[row].baseTexture = nullptr;
   ForEachFace(assembly, row,
               [&](TriangleMesh& mesh, size_t face) { mesh.reflectance[face] = value; });
 }

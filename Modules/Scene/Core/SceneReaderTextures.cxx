@@ -85,6 +85,10 @@ int32_t TextureLibrary::AddMemory(const std::string& name, const unsigned char* 
   if (!rgba) return NoteMissing(key, name);
   const int32_t row = AddPixels(name, width, height, rgba, decoding);
   stbi_image_free(rgba);
+  if (row >= 0) {
+    const std::string file(reinterpret_cast<const char*>(bytes), size);
+    sources_[row] = std::make_shared<TextureSource>(TextureSource{name, file, decoding});
+  }
   return row;
 }
 
@@ -139,6 +143,11 @@ int32_t TextureLibrary::NoteMissing(const std::string& key, const std::string& n
   return rows_[key] = -1;
 }
 
+std::shared_ptr<const TextureSource> TextureLibrary::Source(const TextureMap& map) const {
+  const auto source = sources_.find(map.image);
+  return source != sources_.end() ? source->second : nullptr;
+}
+
 const TextureValue& TextureLibrary::ImageMean(const TextureMap& map) const {
   return images_[size_t(map.image)].back().texels[0];
 }
@@ -190,6 +199,34 @@ TextureValue TextureLibrary::TriangleMean(const TextureMap& map,
   }
   const float count = float(n) * float(n);
   return {sum.colour / count, sum.alpha / count};
+}
+
+TextureValue TextureLibrary::Lookup(const TextureMap& map, const Vec2f& uv, double width) const {
+  // The level: each has texels twice as wide as the one before.
+  const Pyramid& pyramid = images_[size_t(map.image)];
+  const double texels = width * std::sqrt(double(pyramid[0].width) * double(pyramid[0].height));
+  const double octave = std::round(std::log2(std::max(1., texels)));
+  const Level& level = pyramid[std::min(pyramid.size() - 1, size_t(octave))];
+
+  // Between the middles of its texels, as glTF has it.
+  const auto& m = map.fromUv;
+  const double x = (m[0] * uv.x + m[1] * uv.y + m[2]) * level.width - 0.5;
+  const double y = (m[3] * uv.x + m[4] * uv.y + m[5]) * level.height - 0.5;
+  if (!std::isfinite(x) || !std::isfinite(y)) return ImageMean(map);
+  const double left = std::floor(x), top = std::floor(y);
+  TextureValue sum{Spectrum(0.f), 0};
+  for (const int j : {0, 1}) {
+    for (const int i : {0, 1}) {
+      const int column = WrapTexel((left + i + 0.5) / level.width, level.width, map.wrapU);
+      const int row = WrapTexel((top + j + 0.5) / level.height, level.height, map.wrapV);
+      const TextureValue& texel = level.texels[size_t(row) * size_t(level.width) + size_t(column)];
+      const float part =
+          float((i == 0 ? 1 - (x - left) : x - left) * (j == 0 ? 1 - (y - top) : y - top));
+      sum.colour += texel.colour * part;
+      sum.alpha += texel.alpha * part;
+    }
+  }
+  return sum;
 }
 
 }  // namespace lambert

@@ -1,9 +1,10 @@
-// Images that colour surfaces. A texture counts as its mean over each triangle, so only such means
-// are asked for.
+// Images that colour surfaces: their means over triangles, as which they count for light, and
+// lookups, for those who draw them.
 #pragma once
 
 #include <array>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,13 @@ struct TextureDecoding {
       -1;  ///< from 0 up: alpha becomes 1 at or above it, 0 below (in each texel, before any mean)
 };
 
+/// An image as it came in.
+struct TextureSource {
+  std::string name;   ///< its file, or the scene's and its place in it
+  std::string bytes;  ///< of an image file of 8-bit codes: PNG, JPEG, ...
+  TextureDecoding decoding;
+};
+
 /// Decoded images with their mip maps; each is decoded once for each way to decode it.
 class TextureLibrary {
  public:
@@ -57,6 +65,13 @@ class TextureLibrary {
   /// Mean over the whole image.
   const TextureValue& ImageMean(const TextureMap& map) const;
 
+  /// At mesh uv `uv`, bilinear between the texels of the level whose texels are about `width` wide;
+  /// 1 is the root of the area of the image.
+  TextureValue Lookup(const TextureMap& map, const Vec2f& uv, double width) const;
+
+  /// The image as it came in; null where it came decoded or is of high dynamic range.
+  std::shared_ptr<const TextureSource> Source(const TextureMap& map) const;
+
   /// Names of the images that could not be read, each once.
   const std::vector<std::string>& Missing() const { return missing_; }
 
@@ -73,6 +88,7 @@ class TextureLibrary {
   int32_t NoteMissing(const std::string& key, const std::string& name);
 
   std::vector<Pyramid> images_;
+  std::map<int32_t, std::shared_ptr<const TextureSource>> sources_;  ///< by row
   std::map<std::string, int32_t> rows_;
   std::vector<std::string> missing_;
 };

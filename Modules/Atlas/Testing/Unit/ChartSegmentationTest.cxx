@@ -124,6 +124,29 @@ TEST(ChartSegmentation, LongAndEmptyChartsAreCut) {
   EXPECT_GE(CutIntoCharts(frame.mesh, frame.tree, full).charts.size(), 2u);
 }
 
+// What IsOf takes for the same is the same, and it takes some: charts are kept by it.
+TEST(ChartSegmentation, KnowsOfOtherOptionsThatCutAlike) {
+  const Clustered torus(Torus(60, 30));
+  ChartOptions options;
+  options.longest = 1;
+  const ChartSet set = CutIntoCharts(torus.mesh, torus.tree, options);
+  EXPECT_TRUE(set.IsOf(options));
+  int alike = 0, others = 0;
+  for (const double longest : {0.2, 0.5, 0.9, 0.99, 0.999, 1.001, 1.01, 1.1, 2., 0.}) {
+    options.longest = longest;
+    const ChartSet again = CutIntoCharts(torus.mesh, torus.tree, options);
+    const bool isAlike = set.IsOf(options);
+    EXPECT_TRUE(!isAlike || again.places == set.places) << longest;
+    ++(isAlike ? alike : others);
+  }
+  EXPECT_GT(alike, 0);
+  EXPECT_GT(others, 0);
+  options.longest = 1;
+  options.stretch = 3;
+  EXPECT_FALSE(set.IsOf(options));
+  EXPECT_FALSE(ChartSet().IsOf({}));
+}
+
 TEST(ChartSegmentation, TwoThreadsCutAsOne) {
   const Clustered torus(Torus(60, 30));
   SetThreadCount(1);

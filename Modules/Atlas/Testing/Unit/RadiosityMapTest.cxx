@@ -22,7 +22,7 @@ struct TwoFloors {
     map.pageSize = 64;
     map.pages.assign(size_t(atlas.pages), std::vector<Spectrum>(64 * 64, Spectrum(2)));
   }
-  std::vector<std::vector<Spectrum>> Radiosity(uint8_t side) const {
+  std::vector<RadiosityPage> Radiosity(uint8_t side) const {
     return MakeRadiosityMap(clustered.mesh, atlas, map, std::vector<uint8_t>(2, side));
   }
 
@@ -53,7 +53,7 @@ TEST(RadiosityMap, TexelsHoldReflectanceTimesIrradianceAndEmittance) {
   for (size_t texel = 0; texel < faces.size(); ++texel) {
     if (faces[texel] < 0) continue;
     const bool isLamp = !floors.clustered.mesh.emittance[size_t(faces[texel])].IsBlack();
-    EXPECT_FLOAT_EQ(pages[0][texel].g, isLamp ? 5.f : 1.8f);
+    EXPECT_FLOAT_EQ(pages[0].texels[texel].g, isLamp ? 5.f : 1.8f);
     ++(isLamp ? lamp : white);
   }
   EXPECT_GT(white, 500);
@@ -63,16 +63,55 @@ TEST(RadiosityMap, TexelsHoldReflectanceTimesIrradianceAndEmittance) {
 // Bilinear lookups at borders mix nothing else in: every texel is one floor's or the other's.
 TEST(RadiosityMap, BetweenChartsLiesTheNearestFace) {
   const auto pages = TwoFloors().Radiosity(kFront);
-  for (const Spectrum& texel : pages[0]) {
+  for (const Spectrum& texel : pages[0].texels) {
     EXPECT_TRUE(std::abs(texel.r - 1.8f) < 1e-5f || texel.r == 5) << texel.r;
   }
 }
 
 TEST(RadiosityMap, ALampIsDarkFromBehind) {
   const auto pages = TwoFloors().Radiosity(kBack);
-  for (const Spectrum& texel : pages[0]) {
+  for (const Spectrum& texel : pages[0].texels) {
     EXPECT_TRUE(std::abs(texel.r - 1.8f) < 1e-5f || texel.r == 0) << texel.r;
   }
+}
+
+// The floor beside the lamp under a texture of two texels, white and black, factor 0.5.
+TEST(RadiosityMap, TexturesAreBakedAtTheirOwnSize) {
+  TwoFloors floors;
+  TriangleMesh& mesh = floors.clustered.mesh;
+  mesh.uvs.resize(mesh.positions.size());
+  for (size_t p = 0; p < mesh.positions.size(); ++p) {
+    mesh.uvs[p] = {mesh.positions[p].x, mesh.positions[p].z};
+  }
+  auto source = std::make_shared<TextureSource>();
+  source->bytes = std::string("P6\n2 1\n255\n") + std::string(3, char(255)) + std::string(3, '\0');
+  Scene scene;
+  scene.mesh = mesh;
+  scene.materials.resize(1);
+  scene.materials[0].baseTexture =
+      std::make_shared<BaseTexture>(BaseTexture{source, {}, Spectrum(0.5f)});
+  const BaseTextures textures(scene);
+  const auto pages = MakeRadiosityMap(mesh, floors.atlas, floors.map,
+                                      std::vector<uint8_t>(2, kFront), &textures, 300);
+  ASSERT_EQ(pages.size(), 1u);
+  EXPECT_EQ(pages[0].size, 256);  // The largest multiple of 64
+  EXPECT_TRUE(pages[0].isTextured);
+
+  // Irradiance 2 shows up to 1 where the image is white; the lamp shows its light.
+  int64_t covered = 0, lamp = 0, white = 0, black = 0;
+  for (size_t texel = 0; texel < pages[0].texels.size(); ++texel) {
+    if (!pages[0].isInChart[texel]) continue;
+    ++covered;
+    const float light = pages[0].texels[texel].r;
+    lamp += light == 5;
+    white += std::abs(light - 1) < 0.01f;
+    black += light < 0.01f;
+    EXPECT_TRUE(light == 5 || light <= 1.0001f) << light;
+  }
+  // A row of the page is 1 % of the floor and more.
+  EXPECT_NEAR(double(lamp), 0.5 * double(covered), 0.02 * double(covered));
+  EXPECT_GT(white, 0);
+  EXPECT_GT(black, 0);
 }
 
 TEST(RadiosityMap, TheMapOfAnotherAtlasIsRefused) {

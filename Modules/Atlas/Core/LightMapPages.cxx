@@ -1,0 +1,96 @@
+#include "Atlas/Core/LightMapPages.h"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
+#include <stb_image_write.h>
+
+#include <filesystem>
+
+#include "Common/Core/Error.h"
+
+namespace lambert {
+
+namespace {
+
+/// The rows of a page, the uppermost first.
+std::vector<Spectrum> RowsFromAbove(const std::vector<Spectrum>& texels, size_t size) {
+  std::vector<Spectrum> rows;
+  rows.reserve(texels.size());
+  for (size_t y = size; y-- > 0;) {
+    const auto row = texels.begin() + std::ptrdiff_t(y * size);
+    rows.insert(rows.end(), row, row + std::ptrdiff_t(size));
+  }
+  return rows;
+}
+
+/// Packed without loss, primaries BT.709.
+void WriteExr(const std::string& name, int size, std::vector<Spectrum> rows) {
+  Imf::Header header(size, size);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  Imf::addChromaticities(header, Imf::Chromaticities());
+  Imf::addComments(header, "irradiance, W/m2");
+  Imf::FrameBuffer bands;
+  const char* const names[] = {"R", "G", "B"};
+  for (int band = 0; band < 3; ++band) {
+    header.channels().insert(names[band], Imf::Channel(Imf::FLOAT));
+    bands.insert(names[band], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(&rows[0][band]),
+                                         sizeof(Spectrum), sizeof(Spectrum) * size_t(size)));
+  }
+  Imf::OutputFile file(name.c_str(), header);
+  file.setFrameBuffer(bands);
+  file.writePixels(size);
+}
+
+bool WritePng(const std::string& name, int size, const std::vector<Spectrum>& rows,
+              const TexelCodes& codes) {
+  std::vector<uint8_t> bytes;
+  bytes.reserve(rows.size() * 3);
+  for (const Spectrum& texel : rows) {
+    for (const uint8_t code : codes(texel)) bytes.push_back(code);
+  }
+  return stbi_write_png(name.c_str(), size, size, 3, bytes.data(), 3 * size) != 0;
+}
+
+bool WriteHdr(const std::string& name, int size, const std::vector<Spectrum>& rows) {
+  return stbi_write_hdr(name.c_str(), size, size, 3, &rows[0].r) != 0;
+}
+
+const char* EndingOf(PageFormat format) {
+  if (format == PageFormat::Exr) return ".exr";
+  return format == PageFormat::Png ? ".png" : ".hdr";
+}
+
+}  // namespace
+
+std::vector<std::string> LightMapPageNames(const std::string& fileName, int pages,
+                                           PageFormat format) {
+  const std::filesystem::path path(fileName);
+  std::vector<std::string> names;
+  for (int page = 0; page < pages; ++page) {
+    const std::string name = path.stem().string() + "-" + std::to_string(page) + EndingOf(format);
+    names.push_back((path.parent_path() / name).string());
+  }
+  return names;
+}
+
+void WriteLightMapPages(const LightMap& map, const std::string& fileName, PageFormat format,
+                        const TexelCodes& codes) {
+  const std::vector<std::string> names = LightMapPageNames(fileName, int(map.pages.size()), format);
+  for (size_t page = 0; page < names.size(); ++page) {
+    std::vector<Spectrum> rows = RowsFromAbove(map.pages[page], size_t(map.pageSize));
+    bool isWritten = true;
+    try {
+      if (format == PageFormat::Exr) WriteExr(names[page], map.pageSize, std::move(rows));
+      if (format == PageFormat::Hdr) isWritten = WriteHdr(names[page], map.pageSize, rows);
+      if (format == PageFormat::Png) isWritten = WritePng(names[page], map.pageSize, rows, codes);
+    } catch (const std::exception&) {
+      isWritten = false;  // The library's sentence names its own insides.
+    }
+    if (!isWritten) throw Error("The page " + names[page] + " could not be written.");
+  }
+}
+
+}  // namespace lambert

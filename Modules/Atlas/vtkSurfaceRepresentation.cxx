@@ -1,0 +1,143 @@
+#include "vtkSurfaceRepresentation.h"
+
+#include "Atlas/Core/SurfaceRepresentation.h"
+#include "Clustering/vtkClusterTreeAdapter.h"
+#include "Common/Core/Error.h"
+#include "vtkAtlasAdapter.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkSceneAdapter.h"
+#include "vtkTable.h"
+
+#include <map>
+
+struct vtkSurfaceRepresentation::Settings {
+  lambert::RepresentationOptions Choice;
+  lambert::AtlasOptions Atlas;
+  std::map<std::string, lambert::Representation> ByMaterial;
+};
+
+vtkStandardNewMacro(vtkSurfaceRepresentation);
+
+vtkSurfaceRepresentation::vtkSurfaceRepresentation() : Options(std::make_unique<Settings>()) {
+  this->SetNumberOfInputPorts(3);
+  this->SetNumberOfOutputPorts(3);
+}
+
+vtkSurfaceRepresentation::~vtkSurfaceRepresentation() = default;
+
+int vtkSurfaceRepresentation::FillInputPortInformation(int port, vtkInformation* information) {
+  information->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(),
+                   port == 1 ? "vtkTable" : "vtkPolyData");
+  return 1;
+}
+
+int vtkSurfaceRepresentation::FillOutputPortInformation(int port, vtkInformation* information) {
+  static const char* const types[] = {"vtkPolyData", "vtkMultiBlockDataSet", "vtkTable"};
+  information->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
+  return 1;
+}
+
+//------------------------------------------------------------------------------
+// Options of the algorithms, forwarded.
+#define lambertOptionMacro(name, type, option)           \
+  void vtkSurfaceRepresentation::Set##name(type value) { \
+    if (this->Options->option != value) {                \
+      this->Options->option = value;                     \
+      this->Modified();                                  \
+    }                                                    \
+  }                                                      \
+  type vtkSurfaceRepresentation::Get##name() { return this->Options->option; }
+lambertOptionMacro(IntroducedTriangles, vtkIdType, Choice.introducedTriangles);
+lambertOptionMacro(Stretch, double, Atlas.stretch);
+lambertOptionMacro(PageSize, int, Atlas.pageSize);
+lambertOptionMacro(Pages, int, Atlas.pages);
+lambertOptionMacro(TexelSize, double, Atlas.texelSize);
+lambertOptionMacro(Padding, int, Atlas.padding);
+#undef lambertOptionMacro
+
+void vtkSurfaceRepresentation::SetRepresentation(const std::string& material, int kind) {
+  if (kind < AUTOMATIC || kind > LIGHT_MAP) {
+    vtkErrorMacro(<< "A representation is AUTOMATIC, POINTS or LIGHT_MAP, not " << kind << ".");
+    return;
+  }
+  if (this->GetRepresentation(material) != kind) {
+    this->Options->ByMaterial[material] = static_cast<lambert::Representation>(kind);
+    this->Modified();
+  }
+}
+
+int vtkSurfaceRepresentation::GetRepresentation(const std::string& material) {
+  const auto found = this->Options->ByMaterial.find(material);
+  return found != this->Options->ByMaterial.end() ? static_cast<int>(found->second) : AUTOMATIC;
+}
+
+//------------------------------------------------------------------------------
+namespace {
+/// A row a surface.
+void FillCosts(const std::vector<lambert::SurfaceCost>& surfaces, vtkTable* table) {
+  const auto add = [&](auto array, const char* name, const auto& value) {
+    array->SetName(name);
+    for (const lambert::SurfaceCost& surface : surfaces) {
+      array->InsertNextValue(value(surface));
+    }
+    table->AddColumn(array);
+  };
+  using Cost = lambert::SurfaceCost;
+  add(vtkNew<vtkIdTypeArray>().Get(), "LightMapped",
+      [](const Cost& s) { return s.chosen == lambert::Representation::LightMap ? 1 : 0; });
+  add(vtkNew<vtkIdTypeArray>().Get(), "InputTriangles",
+      [](const Cost& s) { return s.inputTriangles; });
+  add(vtkNew<vtkIdTypeArray>().Get(), "RefinedTriangles",
+      [](const Cost& s) { return s.refinedTriangles; });
+  add(vtkNew<vtkDoubleArray>().Get(), "Area", [](const Cost& s) { return s.area; });
+  add(vtkNew<vtkDoubleArray>().Get(), "Texels", [](const Cost& s) { return s.texels; });
+  add(vtkNew<vtkDoubleArray>().Get(), "MapError", [](const Cost& s) { return s.mapError; });
+}
+}  // namespace
+
+int vtkSurfaceRepresentation::RequestData(vtkInformation*, vtkInformationVector** inputs,
+                                          vtkInformationVector* outputs) {
+  const auto progress = [this](double fraction, const char* stage) {
+    this->SetProgressText(stage);
+    this->UpdateProgress(fraction);
+    return !this->GetAbortExecute();
+  };
+  try {
+    lambert::Scene scene = lambert::SceneFromPolyData(vtkPolyData::GetData(inputs[0]));
+    const lambert::ClusterTree tree = lambert::ClusterTreeFromTable(vtkTable::GetData(inputs[1]));
+    lambert::RepresentationOptions choice = this->Options->Choice;
+    choice.wanted = lambert::RepresentationsByMaterial(scene.mesh, tree, scene.materials,
+                                                       this->Options->ByMaterial,
+                                                       lambert::Representation::Automatic);
+    const lambert::RepresentedScene represented = lambert::RepresentSurfaces(
+        scene.mesh, tree, lambert::SolutionFromPolyData(vtkPolyData::GetData(inputs[2])), choice,
+        this->Options->Atlas, progress);
+    lambert::PolyDataFromRepresentedScene(represented, std::move(scene),
+                                          vtkPolyData::GetData(outputs, 0));
+    lambert::PagesFromLightMap(represented.map, vtkMultiBlockDataSet::GetData(outputs, 1));
+    FillCosts(represented.surfaces, vtkTable::GetData(outputs, 2));
+    return 1;
+  } catch (const lambert::Cancelled&) {
+    return 1;  // An abort is no error; nothing is delivered.
+  } catch (const std::exception& error) {
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+}
+
+void vtkSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent) {
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "IntroducedTriangles: " << this->GetIntroducedTriangles() << "\n"
+     << indent << "PageSize: " << this->GetPageSize() << "\n"
+     << indent << "Pages: " << this->GetPages() << "\n"
+     << indent << "TexelSize: " << this->GetTexelSize() << "\n"
+     << indent << "Padding: " << this->GetPadding() << "\n"
+     << indent << "Stretch: " << this->GetStretch() << "\n";
+}

@@ -1,0 +1,77 @@
+/**
+ * @class vtkSurfaceRepresentation
+ * @brief How each surface of a solved mesh shows its light: at its points or in a light map (thesis
+ * 5.1, 5.3).
+ *
+ * Input port 0: vtkPolyData, the mesh that was solved, as vtkFaceClustering leaves it. Input port
+ * 1: vtkTable, its cluster tree. Input port 2: vtkPolyData, output port 0 of the method. Output
+ * port 0: vtkPolyData, all surfaces, those of the light map first: point arrays `Irradiance` (3
+ * float, W/m2) and `LightMapTCoords` (2 float; (-1, -1) where the points light), cell array
+ * `PageId`. Output port 1: vtkMultiBlockDataSet, the pages, as vtkRadiosityLightMap has them.
+ * Output port 2: vtkTable, a row a surface: `LightMapped` (0 or 1), `InputTriangles`,
+ * `RefinedTriangles`, `Area` (m2), `Texels`, `MapError` (relative RMS of irradiance; both 0 outside
+ * the light map).
+ */
+#ifndef vtkSurfaceRepresentation_h
+#define vtkSurfaceRepresentation_h
+
+#include "lambertAtlasModule.h"
+#include "vtkPolyDataAlgorithm.h"
+
+#include <memory>  // for the options
+#include <string>  // for names
+
+class LAMBERTATLAS_EXPORT vtkSurfaceRepresentation : public vtkPolyDataAlgorithm {
+ public:
+  static vtkSurfaceRepresentation* New();
+  vtkTypeMacro(vtkSurfaceRepresentation, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{ Triangles that refinement may add to all surfaces that their points light, [0, inf); default
+  /// 0.
+  void SetIntroducedTriangles(vtkIdType triangles);
+  vtkIdType GetIntroducedTriangles();
+  ///@}
+  enum Kind { AUTOMATIC = 0, POINTS = 1, LIGHT_MAP = 2 };
+  ///@{ What is wanted of the surfaces of a material, by its name; default AUTOMATIC, as the
+  /// triangles tell.
+  void SetRepresentation(const std::string& material, int kind);
+  int GetRepresentation(const std::string& material);
+  ///@}
+
+  ///@{ Of the light map, as vtkRadiosityAtlas has them.
+  void SetStretch(double stretch);
+  double GetStretch();
+  void SetPageSize(int texels);
+  int GetPageSize();
+  void SetPages(int pages);
+  int GetPages();
+  void SetTexelSize(double metres);
+  double GetTexelSize();
+  void SetPadding(int texels);
+  int GetPadding();
+  ///@}
+
+  ///@{ The other inputs.
+  void SetClusterConnection(vtkAlgorithmOutput* tree) { this->SetInputConnection(1, tree); }
+  void SetSolutionConnection(vtkAlgorithmOutput* solution) {
+    this->SetInputConnection(2, solution);
+  }
+  ///@}
+
+ protected:
+  vtkSurfaceRepresentation();
+  ~vtkSurfaceRepresentation() override;
+  int FillInputPortInformation(int port, vtkInformation* information) override;
+  int FillOutputPortInformation(int port, vtkInformation* information) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+
+ private:
+  vtkSurfaceRepresentation(const vtkSurfaceRepresentation&) = delete;
+  void operator=(const vtkSurfaceRepresentation&) = delete;
+
+  struct Settings;
+  std::unique_ptr<Settings> Options;
+};
+
+#endif
