@@ -269,6 +269,9 @@ void SolveArguments::AddTo(CLI::App* command) {
       ->check(CLI::Range(1, 1000000));
   command->add_flag("!--no-final-gather", solver.finalGather,
                     "Deliver what links brought, without gathering anew at the points");
+  command->add_option("--save-state", solver.saveState,
+                      "File that gets all that a later run needs to go on from here");
+  command->add_option("--resume", solver.resume, "File of --save-state that this run goes on from");
   command->add_option("--threads", threads, "Threads; 0: all processors")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
@@ -321,6 +324,8 @@ void SolveArguments::Check() const {
   }
   FilesOfRun files(scene.files);
   files.Add("--probe", probe, false);
+  files.Add("--resume", solver.resume, false);
+  if (solver.saveState != solver.resume) files.Add("--save-state", solver.saveState, true);
   files.Add("--output", output, true);
   files.Add("--probe-output", probeOutput, true);
   files.Add("--image", image, true);

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
 
+#include "Common/Core/ContentHash.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Random.h"
 #include "Visibility/Core/SolutionLookup.h"
@@ -23,19 +23,6 @@ constexpr float kInnerDraw = 0.1f;
 constexpr double kLeastLight = 1e-6;
 /// Of the file and of how receivers are chosen and traced: another one is traced anew.
 constexpr uint64_t kVersion = 4;
-
-template <class T>
-uint64_t HashOf(const std::vector<T>& values, uint64_t seed) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  uint64_t hash = HashBits(seed, values.size());
-  const auto* bytes = reinterpret_cast<const char*>(values.data());
-  for (size_t i = 0, size = values.size() * sizeof(T); i < size; i += sizeof(uint64_t)) {
-    uint64_t word = 0;
-    std::memcpy(&word, bytes + i, std::min(sizeof word, size - i));
-    hash = HashBits(hash, word);
-  }
-  return hash;
-}
 
 /// All that light depends on, and what is asked of the reference.
 uint64_t ContentKey(const Scene& scene, const BenchReferenceOptions& options) {

@@ -120,6 +120,7 @@ Json MethodJson(const RadiosityRunOptions& options) {
     method["time"] = options.timeLimit;
     method["iterations"] = options.solver.iterations;
     method["final_gather"] = options.solver.finalGather;
+    if (!options.solver.resume.empty()) method["resume"] = options.solver.resume;
   }
   for (const auto& [name, value] : ValuesOf(options.method)) {
     method[name] = value == std::floor(value) ? Json(static_cast<int64_t>(value)) : Json(value);

@@ -33,6 +33,19 @@ lambertOptionMacro(VerificationPoints, int, verificationPoints);
 lambertOptionMacro(FinalGather, bool, finalGather);
 #undef lambertOptionMacro
 
+#define lambertFileNameMacro(name, member)                     \
+  void vtkHierarchicalRadiosity::Set##name(const char* file) { \
+    const std::string text = file ? file : "";                 \
+    if (this->Options->member != text) {                       \
+      this->Options->member = text;                            \
+      this->Modified();                                        \
+    }                                                          \
+  }                                                            \
+  const char* vtkHierarchicalRadiosity::Get##name() { return this->Options->member.c_str(); }
+lambertFileNameMacro(StateFileName, saveState);
+lambertFileNameMacro(ResumeFileName, resume);
+#undef lambertFileNameMacro
+
 namespace {
 /// The tree of `methodScene`: the given one, else one of its own, which brings the faces into its
 /// order.
@@ -105,5 +118,7 @@ void vtkHierarchicalRadiosity::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "TimeLimit: " << this->GetTimeLimit() << "\n"
      << indent << "Iterations: " << this->GetIterations() << "\n"
      << indent << "VerificationPoints: " << this->GetVerificationPoints() << "\n"
-     << indent << "FinalGather: " << this->GetFinalGather() << "\n";
+     << indent << "FinalGather: " << this->GetFinalGather() << "\n"
+     << indent << "StateFileName: " << this->GetStateFileName() << "\n"
+     << indent << "ResumeFileName: " << this->GetResumeFileName() << "\n";
 }

@@ -59,6 +59,18 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   bool GetFinalGather();
   vtkBooleanMacro(FinalGather, bool);
   ///@}
+  ///@{ File that gets the state at the end of every iteration of links, whole or not at all;
+  ///default
+  /// empty: none.
+  void SetStateFileName(const char* file);
+  const char* GetStateFileName();
+  ///@}
+  ///@{ File of StateFileName that a run of the same input goes on from, to the same light as a run
+  /// that was never stopped; default empty: from the beginning. A file of another input is an
+  /// error.
+  void SetResumeFileName(const char* file);
+  const char* GetResumeFileName();
+  ///@}
 
  protected:
   vtkHierarchicalRadiosity();

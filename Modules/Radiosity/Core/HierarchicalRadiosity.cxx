@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "Common/Core/Error.h"
-#include "Common/Core/Random.h"
 #include "Common/Core/Timer.h"
 #include "Radiosity/Core/EnergyBalance.h"
 #include "Radiosity/Core/ExposureSplitting.h"
@@ -17,7 +16,8 @@
 #include "Radiosity/Core/LinkRefinement.h"
 #include "Radiosity/Core/LitSides.h"
 #include "Radiosity/Core/RefinedMesh.h"
-#include "Reference/Core/SolutionError.h"
+#include "Radiosity/Core/SolverState.h"
+#include "Radiosity/Core/Verification.h"
 #include "Visibility/Core/RayScene.h"
 
 namespace lambert {
@@ -57,12 +57,9 @@ double LinkProgress(const HierarchicalRadiosityOptions& options, double done, in
 
 /// Gathers, each with its rounds of cuts, before it is said that the error cannot be met.
 constexpr int kMostGathers = 4;
-/// What the error must fall to for another attempt to be worth it, and the attempts in a row that
-/// have to fail to; a single iteration of links may gain nothing and the next one much.
-constexpr double kLeastGain = 0.9;
+/// Attempts in a row that gain too little before a run gives up; a single iteration of links may
+/// gain nothing and the next one much.
 constexpr int kGatherPatience = 1, kLinkPatience = 2;
-/// An error counts as met a little below the request: the points that verify it are a sample.
-constexpr double kVerifiedBelow = 0.95;
 /// The next gather aims this far below the wanted error.
 constexpr double kAimBelow = 0.85;
 /// The first round of cuts takes at most about this part of the time of the gather before it, a
@@ -72,10 +69,6 @@ constexpr double kFirstRound = 0.75, kRoundGrowth = 1.5;
 /// out (leaves).
 constexpr int64_t kTrialPoints = 1024;
 constexpr double kTrialReserve = 1.2;
-/// Paths a point for verification.
-constexpr int kVerificationSamples = 256;
-/// Up to so many times as many paths where those leave it open whether the request is met.
-constexpr int kVerificationGrowth = 16;
 
 /// Rays of every point and of a leaf of mean area over the hemisphere, times the error; what their
 /// scatter may leave, of the wanted error.
@@ -119,43 +112,11 @@ double SourcePower(const Scene& scene) {
   return double(power.MaxBand());
 }
 
-/// Verifies what is delivered time and again, until it is what was asked for or gets no better.
-class Verification {
- public:
-  /// Gives up after `patience` attempts in a row that gain too little. All by reference.
-  Verification(const Scene& scene, const HierarchicalRadiosityOptions& options, int patience)
-      : scene_(scene), options_(options), patience_(patience) {}
-
-  /// Error of `solution`, the one that counts.
-  double Measure(const RadiositySolution& solution) {
-    // Another set of points each time, or the second would be chosen by the first.
-    SolutionErrorOptions verification;
-    verification.points = options_.verificationPoints;
-    verification.samples = kVerificationSamples;
-    verification.seed = HashBits(0x76657269u, uint64_t(++attempts_));
-    verification.growth = options_.timeLimit > 0 ? 1 : kVerificationGrowth;
-    verification.enough = kVerifiedBelow * options_.error;
-    error_ = MeasureSolutionError(scene_, solution, verification).Counting();
-    const bool isBetter = attempts_ == 1 || error_ <= kLeastGain * best_;
-    if (isBetter) best_ = error_;
-    idle_ = isBetter ? 0 : idle_ + 1;
-    return error_;
-  }
-
-  double Error() const { return error_; }
-  /// Why to stop: "error" or "floor"; empty: go on. What is not verified counts as met.
-  std::string Verdict() const {
-    if (error_ <= kVerifiedBelow * options_.error) return "error";
-    return idle_ >= patience_ ? "floor" : "";
-  }
-
- private:
-  const Scene& scene_;
-  const HierarchicalRadiosityOptions& options_;
-  const int patience_;
-  int attempts_ = 0, idle_ = 0;
-  double error_ = -1, best_ = 0;
-};
+/// Iterations of links that the falling threshold takes to `last`.
+int IterationsTo(double last) {
+  const double steps = std::log(last / kFirstThreshold) / std::log(kThresholdFactor);
+  return std::max(1, 1 + int(std::ceil(steps)));
+}
 
 }  // namespace
 
@@ -189,6 +150,10 @@ struct HierarchicalRadiosity::Implementation {
     light.Grow(hierarchy);
     MakeInitialLinks(hierarchy, &network);
     network.rays = statistics.rays;
+    if (options.resume.empty()) return;
+    SolverState state = this->State();
+    LoadSolverState(options.resume, &state);
+    secondsBefore = statistics.history.back().seconds;
   }
 
   const Scene& scene;
@@ -202,13 +167,19 @@ struct HierarchicalRadiosity::Implementation {
   std::vector<Exposure> exposures;
   std::optional<RadiositySolution> delivered;  ///< once gathered or verified
   Timer clock;                                 ///< since the run began
+  double secondsBefore = 0;                    ///< that runs took which this one goes on from
   double
       received;  ///< power that the leaves receive, W, largest band; thresholds are fractions of it
 
+  SolverState State() {
+    return {hierarchy, light, network, exposures, received, statistics.history};
+  }
+  double Seconds() const { return secondsBefore + clock.Seconds(); }
   bool RefineAndExchange(double last, double* threshold, double* change,
                          const ProgressCallback& progress);
   double Exchange(double tolerance);
   RadiositySolution Reconstruct();
+  bool EndsHere(bool goOn);
   bool EndsVerified(Verification* verification);
   bool HasTimeFor(double seconds) const {
     return !(options.timeLimit > 0 && clock.Seconds() + seconds > options.timeLimit);
@@ -228,33 +199,34 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
   Implementation& self = *implementation_;
   SolverStatistics& statistics = self.statistics;
   self.clock.Restart();
-  double last = FinalThreshold(self.options), threshold = kFirstThreshold;
-  const int usual = std::max(
-      1, 1 + int(std::ceil(std::log(last / kFirstThreshold) / std::log(kThresholdFactor))));
+  const int usual = IterationsTo(FinalThreshold(self.options));
+
+  // A resumed run stands at the border of the iteration that was its last.
+  bool isResumed = !statistics.history.empty();
+  double threshold = isResumed ? statistics.history.back().threshold : kFirstThreshold;
+  double last = std::min(FinalThreshold(self.options), threshold);
   Verification verification(self.scene, self.options, kLinkPatience);
-  for (int iteration = 1; statistics.stoppedBy.empty(); ++iteration) {
+  verification.Recall(statistics.history);
+  for (int iteration = std::max(1, int(statistics.history.size())); statistics.stoppedBy.empty();
+       ++iteration, isResumed = false) {
     const Timer iterationTimer;
     const ProgressCallback part = [&](double fraction, const char* stage) {
       return Report(progress, LinkProgress(self.options, iteration - 1 + fraction, usual), stage);
     };
-    double change = 0;
-    if (!self.RefineAndExchange(last, &threshold, &change, part)) {
-      statistics.stoppedBy = "interrupt";
-      break;
+    if (!isResumed) {
+      double change = 0;
+      if (!self.RefineAndExchange(last, &threshold, &change, part)) {
+        statistics.stoppedBy = "interrupt";
+        break;
+      }
+      statistics.history.push_back({iteration, self.Seconds(), threshold, self.hierarchy.Size(),
+                                    self.network.Count(), self.network.rays, change});
     }
 
     // The border of an iteration: the only place where a run ends.
-    statistics.history.push_back({iteration, self.clock.Seconds(), threshold, self.hierarchy.Size(),
-                                  self.network.Count(), self.network.rays, change});
+    if (!self.options.saveState.empty()) SaveSolverState(self.State(), self.options.saveState);
     const bool goOn = (!observer || observer(statistics.history.back())) && part(1, "iterating");
-    if (self.options.iterations > 0 && iteration >= self.options.iterations) {
-      statistics.stoppedBy = "iterations";
-      break;
-    }
-    if (!goOn) {
-      statistics.stoppedBy = "interrupt";
-      break;
-    }
+    if (self.EndsHere(goOn)) break;
 
     // Links as fine as the request usually asks for: gather, or see whether they are good enough.
     if (threshold <= last && self.options.finalGather) {
@@ -314,6 +286,17 @@ double HierarchicalRadiosity::Implementation::Exchange(double tolerance) {
     }
   }
   return change;
+}
+
+// Whether the run was to end at the border of this iteration, or is not to go on.
+bool HierarchicalRadiosity::Implementation::EndsHere(bool goOn) {
+  const int done = statistics.history.back().iteration;
+  if (options.iterations > 0 && done >= options.iterations) {
+    statistics.stoppedBy = "iterations";
+  } else if (!goOn) {
+    statistics.stoppedBy = "interrupt";
+  }
+  return !statistics.stoppedBy.empty();
 }
 
 // By what a few points take that stand for all.
@@ -419,22 +402,17 @@ void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
       // The border of an iteration.
       IterationRecord record = statistics.history.back();
       ++record.iteration;
-      record.seconds = self.clock.Seconds();
+      record.seconds = self.Seconds();
       record.rays = self.network.rays;
       record.error = -1;
       statistics.history.push_back(record);
       const bool goOn = !observer || observer(record);
       const double next = (round == 0 ? kFirstRound : kRoundGrowth) * iterationTimer.Seconds();
-      if (self.options.iterations > 0 && record.iteration >= self.options.iterations) {
-        statistics.stoppedBy = "iterations";
-      } else if (!goOn) {
-        statistics.stoppedBy = "interrupt";
-      } else if (!self.HasTimeFor(next)) {
+      if (self.EndsHere(goOn)) return;
+      if (!self.HasTimeFor(next)) {
         statistics.stoppedBy = "time";
-      } else {
-        continue;
+        return;
       }
-      return;
     }
     if (self.EndsVerified(&verification)) return;
     // More rays take away no more than their scatter.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "Clustering/Core/FaceClustering.h"
 #include "Common/Core/Progress.h"
@@ -27,6 +28,11 @@ struct HierarchicalRadiosityOptions {
   /// Whether light is gathered anew at the points of the mesh in the end; without it what links
   /// brought is delivered, sooner and less exact.
   bool finalGather = true;
+  /// File that gets the state at the end of every iteration of links, to go on from; empty: none.
+  std::string saveState;
+  /// File that a run of the same scene saved and that this one goes on from; empty: from the
+  /// beginning.
+  std::string resume;
   LeafMeshOptions leafMesh;
 };
 
@@ -35,7 +41,7 @@ struct HierarchicalRadiosityOptions {
 class HierarchicalRadiosity {
  public:
   /// `scene` is in the order that ClusterFaces left it in; both are kept by reference.
-  /// Throws Error for an error request outside (0, 1].
+  /// Throws Error for an error request outside (0, 1], and as LoadSolverState does.
   HierarchicalRadiosity(const Scene& scene, const ClusterTree& tree,
                         const HierarchicalRadiosityOptions& options = {});
   ~HierarchicalRadiosity();
@@ -47,7 +53,9 @@ class HierarchicalRadiosity {
   /// the points of the mesh, in iterations of cuts, verified after the last of them and improved
   /// until the wanted error is met or a stop comes before. Without final gather links are verified
   /// and refined on instead. A cancelled run keeps the state of its last whole iteration;
-  /// `Statistics().stoppedBy` says why it ended.
+  /// `Statistics().stoppedBy` says why it ended. A resumed run comes to the same bits as one that
+  /// was never stopped; its observer hears of the last iteration of the state first. Throws Error
+  /// where the state cannot be saved.
   void Run(const ProgressCallback& progress = {}, const IterationObserver& observer = {});
 
   /// The displayable solution as it stands: that of the final gather once there is one, before it

@@ -57,7 +57,8 @@ def light_at_points(method):
 method = lambert.vtkHierarchicalRadiosity()
 assert isinstance(method, lambert.vtkRadiosityAlgorithm)
 for name, default, other in (("Error", 0.05, 0.2), ("TimeLimit", 0.0, 60.0), ("Iterations", 0, 7),
-                             ("VerificationPoints", 2000, 0), ("FinalGather", True, False), ("NumberOfThreads", 0, 2)):
+                             ("VerificationPoints", 2000, 0), ("FinalGather", True, False), ("NumberOfThreads", 0, 2),
+                             ("StateFileName", "", "a.state"), ("ResumeFileName", "", "b.state")):
     assert getattr(method, "Get" + name)() == default, name
     getattr(method, "Set" + name)(other)
     assert getattr(method, "Get" + name)() == other, name
@@ -146,6 +147,26 @@ by_links.Update()
 thresholds = vtk_to_numpy(by_links.GetOutputDataObject(1).GetColumnByName("threshold"))
 assert (np.diff(thresholds) < 0).all() and by_links.GetStoppedBy() == "error"
 assert 0 <= vtk_to_numpy(by_links.GetOutputDataObject(1).GetColumnByName("error"))[-1] <= 0.3
+
+# A state that one filter saved another goes on from, to the same light; of another input it is an error.
+state = os.path.join(os.environ["LAMBERT_TEMPORARY_DIR"], "TestHierarchicalRadiosity.state")
+stopped = lambert.vtkHierarchicalRadiosity()
+stopped.SetInputData(scene)
+stopped.SetIterations(2)
+stopped.SetStateFileName(state)
+stopped.Update()
+resumed = lambert.vtkHierarchicalRadiosity()
+resumed.SetInputData(scene)
+resumed.SetIterations(3)
+resumed.SetResumeFileName(state)
+resumed.Update()
+assert resumed.GetOutputDataObject(1).GetNumberOfRows() == 3
+assert np.array_equal(array(resumed.GetOutput(), "Irradiance"), array(unwatched.GetOutput(), "Irradiance"))
+errors = []
+resumed.AddObserver("ErrorEvent", lambda *_: errors.append(1))
+resumed.SetSky(1, 1, 1)
+resumed.Update()
+assert errors
 
 # An abort after the first iteration keeps that iteration.
 aborted = lambert.vtkHierarchicalRadiosity()
