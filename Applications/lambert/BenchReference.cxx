@@ -6,9 +6,9 @@
 #include <fstream>
 #include <numeric>
 
-#include "Common/Core/ContentHash.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Random.h"
+#include "Scene/Core/SceneKey.h"
 #include "Visibility/Core/SolutionLookup.h"
 
 namespace lambert {
@@ -26,21 +26,11 @@ constexpr uint64_t kVersion = 4;
 
 /// All that light depends on, and what is asked of the reference.
 uint64_t ContentKey(const Scene& scene, const BenchReferenceOptions& options) {
-  const TriangleMesh& mesh = scene.mesh;
+  const SceneKey content = KeyOf(scene);
   uint64_t key = HashBits(kVersion, options.seed);
   key = HashBits(key, uint64_t(options.receivers) << 32 | uint64_t(options.paths));
-  key = HashOf(mesh.positions, key);
-  key = HashOf(mesh.normals, key);
-  key = HashOf(mesh.triangles, key);
-  key = HashOf(mesh.reflectance, key);
-  key = HashOf(mesh.emittance, key);
-  key = HashOf(mesh.faceFlags, key);
-  for (const Light& light : scene.lights) {
-    key = HashOf<float>(
-        {float(light.type), light.position.x, light.position.y, light.position.z, light.direction.x,
-         light.direction.y, light.direction.z, light.intensity.r, light.intensity.g,
-         light.intensity.b, light.innerConeAngle, light.outerConeAngle},
-        key);
+  for (const uint64_t part : {content.geometry, content.materials, content.lights}) {
+    key = HashBits(key, part);
   }
   return key;
 }

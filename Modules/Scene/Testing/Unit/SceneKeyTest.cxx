@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "Common/Testing/TestScenes.h"
+#include "Scene/Core/EnvironmentImage.h"
 
 namespace lambert {
 namespace {
@@ -30,8 +31,24 @@ TEST(SceneKeyTest, TellsGeometryFromMaterialsAndLights) {
   EXPECT_EQ(ChangedBy([](Scene* s) { s->mesh.emittance[1].b += 1; }), "M");
   EXPECT_EQ(ChangedBy([](Scene* s) { s->mesh.faceFlags[1] ^= kEmitsBack; }), "M");
   EXPECT_EQ(ChangedBy([](Scene* s) { s->lights[0].size = 0.1f; }), "L");
+  EXPECT_EQ(ChangedBy([](Scene* s) { s->lights[0].ground = Spectrum(0.1f); }), "L");
+  EXPECT_EQ(ChangedBy([](Scene* s) { s->lights[0].rotation = 0.1f; }), "L");
   EXPECT_EQ(ChangedBy([](Scene* s) { s->lights[0].type = LightType::Sky; }), "L");
   EXPECT_EQ(ChangedBy([](Scene* s) { s->lights.push_back(s->lights[0]); }), "L");
+}
+
+TEST(SceneKeyTest, TellsEnvironmentsApart) {
+  const auto keyOf = [](int width, int height, float last) {
+    std::vector<Spectrum> texels(8, Spectrum(1.f));
+    texels.back() = Spectrum(last);
+    Scene scene;
+    scene.lights.emplace_back().image =
+        std::make_shared<EnvironmentImage>(width, height, std::move(texels));
+    return KeyOf(scene).lights;
+  };
+  EXPECT_EQ(keyOf(4, 2, 3), keyOf(4, 2, 3));
+  EXPECT_NE(keyOf(4, 2, 3), keyOf(4, 2, 2));
+  EXPECT_NE(keyOf(4, 2, 3), keyOf(2, 4, 3));
 }
 
 TEST(SceneKeyTest, LeavesOutWhatLightDoesNotDependOn) {
