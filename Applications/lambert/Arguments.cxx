@@ -265,6 +265,8 @@ void SolveArguments::AddTo(CLI::App* command) {
       ->capture_default_str();
   command->add_option("--time", time, "Seconds since the program began, writing included")
       ->check(Within(1e-3, 1e9, "from 0.001 to 1e9"));
+  command->add_option("--max-memory", solver.memoryLimit, "MB of the process, writing included")
+      ->check(Within(1, 1e9, "from 1 to 1e9"));
   command->add_option("--iterations", solver.iterations, "Iterations after which to end")
       ->check(CLI::Range(1, 1000000));
   command->add_flag("!--no-final-gather", solver.finalGather,

@@ -118,6 +118,7 @@ Json MethodJson(const RadiosityRunOptions& options) {
   if (options.method.method == SolveMethod::Hierarchical) {
     method["error"] = options.solver.error;
     method["time"] = options.timeLimit;
+    method["max_memory"] = options.solver.memoryLimit;
     method["iterations"] = options.solver.iterations;
     method["final_gather"] = options.solver.finalGather;
     if (!options.solver.resume.empty()) method["resume"] = options.solver.resume;

@@ -28,6 +28,7 @@ vtkHierarchicalRadiosity::~vtkHierarchicalRadiosity() = default;
   type vtkHierarchicalRadiosity::Get##name() { return this->Options->member; }
 lambertOptionMacro(Error, double, error);
 lambertOptionMacro(TimeLimit, double, timeLimit);
+lambertOptionMacro(MemoryLimit, double, memoryLimit);
 lambertOptionMacro(Iterations, int, iterations);
 lambertOptionMacro(VerificationPoints, int, verificationPoints);
 lambertOptionMacro(FinalGather, bool, finalGather);
@@ -71,6 +72,10 @@ void RequireOptions(const lambert::HierarchicalRadiosityOptions& options) {
   if (!(options.error > 0 && options.error <= 1)) {
     throw lambert::Error("The error is " + std::to_string(options.error) +
                          "; it must lie in (0, 1].");
+  }
+  if (!(options.memoryLimit >= 0)) {
+    throw lambert::Error("The memory limit is " + std::to_string(options.memoryLimit) +
+                         " MB; it must not be negative.");
   }
   if (options.verificationPoints < 0) {
     throw lambert::Error("The error is verified at 0 points or more, not at " +
@@ -116,6 +121,7 @@ void vtkHierarchicalRadiosity::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Error: " << this->GetError() << "\n"
      << indent << "TimeLimit: " << this->GetTimeLimit() << "\n"
+     << indent << "MemoryLimit: " << this->GetMemoryLimit() << "\n"
      << indent << "Iterations: " << this->GetIterations() << "\n"
      << indent << "VerificationPoints: " << this->GetVerificationPoints() << "\n"
      << indent << "FinalGather: " << this->GetFinalGather() << "\n"

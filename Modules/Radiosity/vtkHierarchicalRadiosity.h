@@ -42,6 +42,11 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   void SetTimeLimit(double seconds);
   double GetTimeLimit();
   ///@}
+  ///@{ MB (1e6 bytes) of the process, [0, inf): links are refined and light is gathered as long as
+  /// that and the delivery stay below, the first iteration in any case; default 0: no limit.
+  void SetMemoryLimit(double megabytes);
+  double GetMemoryLimit();
+  ///@}
   ///@{ Iterations after which the run ends; default 0: as many as the error asks for.
   void SetIterations(int iterations);
   int GetIterations();
@@ -60,7 +65,7 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   vtkBooleanMacro(FinalGather, bool);
   ///@}
   ///@{ File that gets the state at the end of every iteration of links, whole or not at all;
-  ///default
+  /// default
   /// empty: none.
   void SetStateFileName(const char* file);
   const char* GetStateFileName();

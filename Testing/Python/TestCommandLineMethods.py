@@ -19,7 +19,7 @@ def irradiance(name):
 
 # The default is hierarchical, and says so.
 report = solve(CORNELL_BOX, "-o", out, "--error", "0.3", "--iterations", "1")
-assert report["method"] == {"name": "hierarchical", "error": 0.3, "time": 0, "iterations": 1, "final_gather": True}, report["method"]
+assert report["method"] == {"name": "hierarchical", "error": 0.3, "time": 0, "max_memory": 0, "iterations": 1, "final_gather": True}, report["method"]
 assert report["requested_error"] == 0.3 and "clustering" in report and "energy_w" in report
 
 # The reference lights the vertices of the mesh as it is, without clusters.

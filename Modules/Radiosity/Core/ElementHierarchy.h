@@ -25,6 +25,8 @@ class ElementHierarchy {
   const std::vector<Element>& Elements() const { return elements_; }
   const Element& operator[](int32_t element) const { return elements_[size_t(element)]; }
   int32_t Size() const { return int32_t(elements_.size()); }
+  /// Elements for which there is room before all move to another place.
+  size_t Capacity() const { return elements_.capacity(); }
 
   int32_t Root() const { return root_; }  ///< over all surfaces but black emitters; -1 for none
   int32_t EmitterRoot() const {

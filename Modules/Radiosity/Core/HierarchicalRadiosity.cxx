@@ -16,6 +16,7 @@
 #include "Radiosity/Core/LinkRefinement.h"
 #include "Radiosity/Core/LitSides.h"
 #include "Radiosity/Core/RefinedMesh.h"
+#include "Radiosity/Core/SolverMemory.h"
 #include "Radiosity/Core/SolverState.h"
 #include "Radiosity/Core/Verification.h"
 #include "Visibility/Core/RayScene.h"
@@ -142,6 +143,7 @@ struct HierarchicalRadiosity::Implementation {
         rayScene(scene_.mesh),
         litSides(FindLitSides(scene_, tree, rayScene, &statistics.rays)),
         hierarchy(scene_, tree, litSides, options_.leafMesh),
+        memory(options_.memoryLimit, hierarchy, litSides),
         received(SourcePower(scene_)) {
     if (!(options.error > 0 && options.error <= 1)) {
       throw Error("The wanted error is " + std::to_string(options.error) +
@@ -166,8 +168,10 @@ struct HierarchicalRadiosity::Implementation {
   LinkNetwork network;
   std::vector<Exposure> exposures;
   std::optional<RadiositySolution> delivered;  ///< once gathered or verified
-  Timer clock;                                 ///< since the run began
-  double secondsBefore = 0;                    ///< that runs took which this one goes on from
+  const SolverMemory memory;
+  bool isFull = false;       ///< the last refinement found no room
+  Timer clock;               ///< since the run began
+  double secondsBefore = 0;  ///< that runs took which this one goes on from
   double
       received;  ///< power that the leaves receive, W, largest band; thresholds are fractions of it
 
@@ -216,7 +220,7 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
     if (!isResumed) {
       double change = 0;
       if (!self.RefineAndExchange(last, &threshold, &change, part)) {
-        statistics.stoppedBy = "interrupt";
+        statistics.stoppedBy = self.isFull ? "memory" : "interrupt";
         break;
       }
       statistics.history.push_back({iteration, self.Seconds(), threshold, self.hierarchy.Size(),
@@ -232,6 +236,8 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
     if (threshold <= last && self.options.finalGather) {
       if (self.options.timeLimit > 0 && !self.HasTimeFor(self.PredictGatherSeconds())) {
         statistics.stoppedBy = "time";
+      } else if (!self.memory.HasRoomForGather()) {
+        statistics.stoppedBy = "memory";
       } else {
         this->GatherUntilMet(progress, observer);
       }
@@ -242,6 +248,7 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
       last = threshold * kThresholdFactor;
     }
     if (!self.HasTimeFor(iterationTimer.Seconds())) statistics.stoppedBy = "time";
+    if (!self.memory.HasRoomForIteration(statistics.history)) statistics.stoppedBy = "memory";
     threshold *= kThresholdFactor;
   }
   self.Count();
@@ -253,9 +260,14 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
 bool HierarchicalRadiosity::Implementation::RefineAndExchange(double last, double* threshold,
                                                               double* change,
                                                               const ProgressCallback& progress) {
+  const RoomCallback hasRoom = [&](int64_t elements, int64_t links) {
+    isFull = !statistics.history.empty() && !memory.HasRoomFor(double(elements), double(links));
+    return !isFull;
+  };
   for (;; *threshold *= kThresholdFactor) {
     *threshold = std::max(last, *threshold);
-    if (!RefineLinks(*threshold * received, rayScene, &hierarchy, &light, &network, progress)) {
+    if (!RefineLinks(*threshold * received, rayScene, &hierarchy, &light, &network, progress,
+                     hasRoom)) {
       return false;
     }
     delivered.reset();
@@ -409,10 +421,11 @@ void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
       const bool goOn = !observer || observer(record);
       const double next = (round == 0 ? kFirstRound : kRoundGrowth) * iterationTimer.Seconds();
       if (self.EndsHere(goOn)) return;
-      if (!self.HasTimeFor(next)) {
-        statistics.stoppedBy = "time";
-        return;
+      if (!self.HasTimeFor(next)) statistics.stoppedBy = "time";
+      if (!self.memory.HasRoomForCuts(*self.delivered)) {
+        statistics.stoppedBy = "memory";
       }
+      if (!statistics.stoppedBy.empty()) return;
     }
     if (self.EndsVerified(&verification)) return;
     // More rays take away no more than their scatter.

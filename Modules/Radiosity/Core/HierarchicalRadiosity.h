@@ -18,6 +18,9 @@ struct HierarchicalRadiosityOptions {
   double error = 0.05;  ///< wanted relative RMS error of irradiance, (0, 1]
   double timeLimit =
       0;  ///< seconds of solving after which the run ends at the next iteration border; 0: none
+  /// MB (1e6 bytes) of the process, [0, inf): links are refined and light is gathered as long as
+  /// that and the delivery stay below, the first iteration in any case; 0: no limit.
+  double memoryLimit = 0;
   int iterations = 0;  ///< iterations after which the run ends; 0: as many as the error asks for
   /// Points at which a path trace verifies the delivered error, which is improved until it is the
   /// wanted one, [0, inf); 0: what usually gives that error is taken for it.

@@ -56,7 +56,7 @@ def light_at_points(method):
 # Options, defaults, and the base class that carries the contract.
 method = lambert.vtkHierarchicalRadiosity()
 assert isinstance(method, lambert.vtkRadiosityAlgorithm)
-for name, default, other in (("Error", 0.05, 0.2), ("TimeLimit", 0.0, 60.0), ("Iterations", 0, 7),
+for name, default, other in (("Error", 0.05, 0.2), ("TimeLimit", 0.0, 60.0), ("MemoryLimit", 0.0, 500.0), ("Iterations", 0, 7),
                              ("VerificationPoints", 2000, 0), ("FinalGather", True, False), ("NumberOfThreads", 0, 2),
                              ("StateFileName", "", "a.state"), ("ResumeFileName", "", "b.state")):
     assert getattr(method, "Get" + name)() == default, name
@@ -239,7 +239,7 @@ outside.Update()
 assert np.allclose(array(outside.GetOutputDataObject(2), "Irradiance"), np.pi * np.array([1, 2, 3]), rtol=0.02)
 
 # Options without meaning are errors, not endless runs.
-for option, value in (("Error", -1), ("Error", 0), ("Error", 2), ("VerificationPoints", -1), ("Sky", (-1, 0, 0))):
+for option, value in (("Error", -1), ("Error", 0), ("Error", 2), ("VerificationPoints", -1), ("MemoryLimit", -1), ("Sky", (-1, 0, 0))):
     broken = lambert.vtkHierarchicalRadiosity()
     getattr(broken, "Set" + option)(value)
     errors = []
