@@ -23,6 +23,8 @@
 
 #include <memory>  // for the options
 
+class vtkTable;
+
 namespace lambert {
 struct HierarchicalRadiosityOptions;
 }
@@ -64,6 +66,16 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   bool GetFinalGather();
   vtkBooleanMacro(FinalGather, bool);
   ///@}
+  ///@{ Whether elements, links and visibility stay in memory after a run; default on. Where the
+  /// input
+  /// then comes with other `Reflectance`, `Emittance` or emitting sides and nothing else has
+  /// changed, the light they have there is shown at once, to observers of UpdateDataEvent too, and
+  /// refined from there: nothing is clustered or traced again. The result is within the error of
+  /// that of a new run, not the same bits.
+  vtkSetMacro(KeepLinks, bool);
+  vtkGetMacro(KeepLinks, bool);
+  vtkBooleanMacro(KeepLinks, bool);
+  ///@}
   ///@{ File that gets the state at the end of every iteration of links, whole or not at all;
   /// default
   /// empty: none.
@@ -86,7 +98,12 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   vtkHierarchicalRadiosity(const vtkHierarchicalRadiosity&) = delete;
   void operator=(const vtkHierarchicalRadiosity&) = delete;
 
+  struct Solver;
+  bool PrepareSolver(vtkPolyData* input, vtkTable* clusters, const Progress& progress);
+
   std::unique_ptr<lambert::HierarchicalRadiosityOptions> Options;
+  std::unique_ptr<Solver> Kept;  ///< of the last run
+  bool KeepLinks = true;
 };
 
 #endif

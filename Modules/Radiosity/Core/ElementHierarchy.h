@@ -49,6 +49,11 @@ class ElementHierarchy {
   /// element at the floor is marked canSplit = false instead.
   void Split(const std::vector<int32_t>& parents);
 
+  /// Reflectance and emittance of all elements by those that the faces of the scene have now.
+  /// False, with nothing changed, where other surfaces than before emit and do not reflect: these
+  /// are clustered apart.
+  bool TakeMaterials();
+
   /// Corners of a polygon element, counter-clockwise seen from its side; returns their count.
   int PolygonCorners(const Element& element, Vec3f* corners) const;
   /// A place on a face.
@@ -79,6 +84,7 @@ class ElementHierarchy {
   Element MakeFaceElement(int32_t node, Side side, int32_t surface) const;
   Place PlaceInCluster(const ClusterNode& node, Side side, double u, Random* random) const;
   Element MakePatchElement(int32_t patch, const Element& parent) const;
+  bool IsBlackEmitter(int32_t surface) const;
   bool BelowFloor(const Element& element) const;
   void FinishVolumes(int32_t root);
 

@@ -113,6 +113,16 @@ double SourcePower(const Scene& scene) {
   return double(power.MaxBand());
 }
 
+/// The sides of every face that give light.
+std::vector<uint8_t> EmittingSides(const TriangleMesh& mesh) {
+  std::vector<uint8_t> sides(mesh.triangles.size(), 0);
+  for (size_t face = 0; face < sides.size(); ++face) {
+    if (mesh.emittance[face].IsBlack()) continue;
+    sides[face] = mesh.faceFlags[face] & (kEmitsFront | kEmitsBack);
+  }
+  return sides;
+}
+
 /// Iterations of links that the falling threshold takes to `last`.
 int IterationsTo(double last) {
   const double steps = std::log(last / kFirstThreshold) / std::log(kThresholdFactor);
@@ -140,6 +150,7 @@ struct HierarchicalRadiosity::Implementation {
                  const HierarchicalRadiosityOptions& options_)
       : scene(Checked(scene_)),
         options(options_),
+        emittingSides(EmittingSides(scene_.mesh)),
         rayScene(scene_.mesh),
         litSides(FindLitSides(scene_, tree, rayScene, &statistics.rays)),
         hierarchy(scene_, tree, litSides, options_.leafMesh),
@@ -160,6 +171,7 @@ struct HierarchicalRadiosity::Implementation {
 
   const Scene& scene;
   const HierarchicalRadiosityOptions options;
+  std::vector<uint8_t> emittingSides;  ///< per face
   SolverStatistics statistics;
   RayScene rayScene;
   std::vector<uint8_t> litSides;
@@ -169,6 +181,7 @@ struct HierarchicalRadiosity::Implementation {
   std::vector<Exposure> exposures;
   std::optional<RadiositySolution> delivered;  ///< once gathered or verified
   const SolverMemory memory;
+  double firstThreshold = kFirstThreshold;
   bool isFull = false;       ///< the last refinement found no room
   Timer clock;               ///< since the run began
   double secondsBefore = 0;  ///< that runs took which this one goes on from
@@ -207,7 +220,7 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
 
   // A resumed run stands at the border of the iteration that was its last.
   bool isResumed = !statistics.history.empty();
-  double threshold = isResumed ? statistics.history.back().threshold : kFirstThreshold;
+  double threshold = isResumed ? statistics.history.back().threshold : self.firstThreshold;
   double last = std::min(FinalThreshold(self.options), threshold);
   Verification verification(self.scene, self.options, kLinkPatience);
   verification.Recall(statistics.history);
@@ -434,6 +447,31 @@ void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
     aim *= std::min(0.8, std::max(0.35, kAimBelow * self.options.error / verification.Error()));
   }
   statistics.stoppedBy = "floor";
+}
+
+bool HierarchicalRadiosity::Relight() {
+  // What light reaches, and what only emits, has to be what it was.
+  Implementation& self = *implementation_;
+  std::vector<uint8_t> emittingSides = EmittingSides(self.scene.mesh);
+  if (emittingSides != self.emittingSides &&
+      FindLitSides(self.scene, self.hierarchy.Tree(), self.rayScene, &self.network.rays) !=
+          self.litSides) {
+    return false;
+  }
+  if (!self.hierarchy.TakeMaterials()) return false;
+  self.emittingSides = std::move(emittingSides);
+
+  // The light of the links there are; a run begins where their refinement ended.
+  self.Exchange(kLastSweepTolerance);
+  self.received = std::max(SourcePower(self.scene), ReceivedPower(self.hierarchy, self.light));
+  self.delivered.reset();
+  if (!self.statistics.history.empty()) {
+    self.firstThreshold = self.statistics.history.back().threshold;
+  }
+  self.statistics.history.clear();
+  self.statistics.stoppedBy.clear();
+  self.Count();
+  return true;
 }
 
 RadiositySolution HierarchicalRadiosity::Solution() const {

@@ -61,6 +61,14 @@ class HierarchicalRadiosity {
   /// where the state cannot be saved.
   void Run(const ProgressCallback& progress = {}, const IterationObserver& observer = {});
 
+  /// Lights the scene anew after a change of its faces' reflectance, emittance or sides that emit:
+  /// elements and links with their visibility stay, light is exchanged until it settles, and no
+  /// ray is cast unless other faces emit than before. Solution() then shows it; Run() goes on from
+  /// there, first with an iteration that refines the links as far as they were before.
+  /// Geometry, clusters and lights have to be what they were. False where light reaches other
+  /// sides, or other surfaces emit without reflecting: then the solver has to be made anew.
+  bool Relight();
+
   /// The displayable solution as it stands: that of the final gather once there is one, before it
   /// the reconstruction of 4.5.5 on the refined mesh.
   RadiositySolution Solution() const;

@@ -168,6 +168,47 @@ resumed.SetSky(1, 1, 1)
 resumed.Update()
 assert errors
 
+# Another reflectance is lit over the links that there are: shown before an iteration, and in the end as a new filter
+# has it, each within the error that was asked for.
+def painted(reflectance):
+    data = vtkPolyData()
+    data.DeepCopy(scene)
+    array_ = numpy_to_vtk(np.full((scene.GetNumberOfCells(), 3), reflectance, np.float32), deep=1)
+    array_.SetName("Reflectance")
+    data.GetCellData().AddArray(array_)
+    return data
+
+
+def mean_light(method):
+    return array(method.GetOutputDataObject(2), "Irradiance").mean()
+
+
+relit, shown = lambert.vtkHierarchicalRadiosity(), []
+relit.SetInputData(painted(0.3))
+relit.SetError(0.3)
+relit.Update()
+first = mean_light(relit)
+relit.AddObserver("UpdateDataEvent", lambda caller, _: shown.append(array(caller.GetOutputDataObject(0), "Irradiance").max()))
+relit.SetInputData(painted(0.6))
+relit.Update()
+fresh = lambert.vtkHierarchicalRadiosity()
+fresh.SetInputData(painted(0.6))
+fresh.SetError(0.3)
+fresh.Update()
+assert mean_light(relit) > 1.1 * first and abs(mean_light(relit) / mean_light(fresh) - 1) < 0.3
+assert len(shown) == relit.GetOutputDataObject(1).GetNumberOfRows() + 1
+assert relit.GetOutputDataObject(1).GetNumberOfRows() < fresh.GetOutputDataObject(1).GetNumberOfRows()
+
+# Other lights, or links that were not kept: all is made anew, to the bits of a new filter.
+for method in (relit, fresh):
+    method.SetIterations(2)
+    method.Update()
+for change in (lambda: relit.SetSky(1, 1, 1), lambda: relit.SetSky(0, 0, 0), relit.KeepLinksOff,
+               lambda: relit.SetInputData(painted(0.3)), lambda: relit.SetInputData(painted(0.6))):
+    change()
+    relit.Update()
+assert np.array_equal(array(relit.GetOutputDataObject(2), "Irradiance"), array(fresh.GetOutputDataObject(2), "Irradiance"))
+
 # An abort after the first iteration keeps that iteration.
 aborted = lambert.vtkHierarchicalRadiosity()
 aborted.SetInputData(scene)
