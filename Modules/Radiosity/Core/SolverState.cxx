@@ -89,15 +89,17 @@ struct Header {
   std::array<char, 8> magic = kMagic;
   uint64_t version = kVersion;
   uint64_t geometry = 0, materials = 0, lights = 0;
+  uint64_t firstElements = 0;  ///< that there are before any is split
 };
 
-Header HeaderFor(const ElementHierarchy& hierarchy) {
+Header HeaderFor(const ElementHierarchy& hierarchy, int64_t firstElements) {
   const SceneKey key = KeyOf(hierarchy.GetScene());
   Header header;
   header.geometry = HashOf(hierarchy.Tree().nodes, key.geometry);
   header.geometry = HashOf<float>({hierarchy.Leaves().Options().snapTolerance}, header.geometry);
   header.materials = key.materials;
   header.lights = key.lights;
+  header.firstElements = uint64_t(firstElements);
   return header;
 }
 
@@ -122,18 +124,20 @@ Splits SplitsOf(const ElementHierarchy& hierarchy) {
 }
 
 /// Splits elements in the order in which they were split, in runs as long as parents ascend and
-/// exist: children get their old numbers.
-void SplitAgain(const Splits& splits, ElementHierarchy* hierarchy) {
+/// exist: children get their old numbers. False where one does not come to be.
+bool SplitAgain(const Splits& splits, ElementHierarchy* hierarchy) {
   std::vector<int32_t> run;
   for (const int32_t parent : splits.parents) {
     if (!run.empty() && (parent <= run.back() || parent >= hierarchy->Size())) {
       hierarchy->Split(run);
       run.clear();
     }
+    if (parent >= hierarchy->Size()) return false;
     run.push_back(parent);
   }
   hierarchy->Split(run);
   hierarchy->Split(splits.atFloor);
+  return true;
 }
 
 /// What the file holds behind its header, written or read.
@@ -204,8 +208,8 @@ void SaveSolverState(const SolverState& state, const std::string& fileName) {
   // Under another name first: a run that is cut short leaves the state before whole.
   const std::string unfinished = fileName + ".part";
   StateWriter writer(unfinished);
-  writer(HeaderFor(state.hierarchy));
   Splits splits = SplitsOf(state.hierarchy);
+  writer(HeaderFor(state.hierarchy, state.hierarchy.Size() - 2 * int64_t(splits.parents.size())));
   SolverState written = state;
   Exchange(writer, &splits, &written);
   std::error_code failed;
@@ -248,7 +252,7 @@ void LoadSolverState(const std::string& fileName, SolverState* state) {
   StateReader reader(fileName);
   Header header;
   reader(header);
-  const Header own = HeaderFor(state->hierarchy);
+  const Header own = HeaderFor(state->hierarchy, state->hierarchy.Size());
   const std::string other = header.geometry != own.geometry     ? "geometry"
                             : header.materials != own.materials ? "materials"
                             : header.lights != own.lights       ? "lights"
@@ -262,7 +266,12 @@ void LoadSolverState(const std::string& fileName, SolverState* state) {
   // Its elements again, its links and light as they were.
   Splits splits;
   Exchange(reader, &splits, state);
-  SplitAgain(splits, &state->hierarchy);
+  if (header.firstElements != own.firstElements || !SplitAgain(splits, &state->hierarchy) ||
+      size_t(state->hierarchy.Size()) != state->light.radiosity.size()) {
+    throw Error("The state " + fileName +
+                " was saved by a version of Lambert that makes other elements; solve from the "
+                "beginning.");
+  }
 }
 
 }  // namespace lambert

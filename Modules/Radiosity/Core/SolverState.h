@@ -28,8 +28,9 @@ struct SolverState {
 void SaveSolverState(const SolverState& state, const std::string& fileName);
 
 /// Brings the `state` of a solver that has not iterated yet to that of the file, to the bit. Throws
-/// Error, with the state as it was, where RequireSolverState does, and for a file of another scene:
-/// other geometry or clusters, other materials, other lights, other options of patches.
+/// Error where RequireSolverState does, for a file of another scene (other geometry or clusters,
+/// other materials, other lights, other options of patches), and where elements do not come out as
+/// they were.
 void LoadSolverState(const std::string& fileName, SolverState* state);
 
 /// Throws Error where the file cannot be read, is none that SaveSolverState wrote, is of another

@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
+#include "Common/Core/ContentHash.h"
 #include "Common/Core/Error.h"
 #include "SolverScenes.h"
 
@@ -162,7 +164,7 @@ TEST_F(SolverStateTest, RefusesFilesThatAreNotWhole) {
   // Cut short anywhere, a byte changed, another version.
   const std::string saved = this->Saved(2);
   const auto size = std::filesystem::file_size(saved);
-  for (const uintmax_t left : {uintmax_t(40), uintmax_t(47), size / 2, size - 1}) {
+  for (const uintmax_t left : {uintmax_t(48), uintmax_t(55), size / 2, size - 1}) {
     std::filesystem::copy_file(saved, other, std::filesystem::copy_options::overwrite_existing);
     std::filesystem::resize_file(other, left);
     EXPECT_NE(this->Refusal(room_, other).find("cut short"), std::string::npos) << left;
@@ -174,6 +176,15 @@ TEST_F(SolverStateTest, RefusesFilesThatAreNotWhole) {
   };
   EXPECT_NE(change(std::streamoff(size / 2)).find("changed"), std::string::npos);
   EXPECT_NE(change(8).find("another version"), std::string::npos);
+
+  // Whole, and of elements that are made no more.
+  std::string bytes(size, ' ');
+  std::ifstream(saved, std::ios::binary).read(bytes.data(), std::streamsize(size));
+  ++bytes[40];
+  const uint64_t hash = HashOfBytes(bytes.data(), size - sizeof(uint64_t), 0);
+  std::memcpy(&bytes[size - sizeof hash], &hash, sizeof hash);
+  std::ofstream(other, std::ios::binary) << bytes;
+  EXPECT_NE(this->Refusal(room_, other).find("other elements"), std::string::npos);
 }
 
 TEST_F(SolverStateTest, SaysWhereItCannotBeWritten) {
