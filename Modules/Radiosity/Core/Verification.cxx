@@ -24,7 +24,7 @@ double Verification::Measure(const RadiositySolution& solution) {
   SolutionErrorOptions verification;
   verification.points = options_.verificationPoints;
   verification.samples = kVerificationSamples;
-  verification.seed = HashBits(0x76657269u, uint64_t(attempts_ + 1));
+  verification.seed = HashBits(0x76657269u, uint64_t(attempts_) + 1);
   verification.growth = options_.timeLimit > 0 ? 1 : kVerificationGrowth;
   verification.enough = kVerifiedBelow * options_.error;
   this->Note(MeasureSolutionError(scene_, solution, verification).Counting());

@@ -10,6 +10,7 @@ namespace {
 /// The texels and, by the size of the first one, how many there are in a row.
 uint64_t HashOfImage(const EnvironmentImage& image, uint64_t seed) {
   std::vector<Spectrum> texels;
+  texels.reserve(size_t(image.Count()));
   for (int i = 0; i < image.Count(); ++i) texels.push_back(image.Texel(i));
   return HashOf<double>({image.SolidAngle(0)}, HashOf(texels, seed));
 }
