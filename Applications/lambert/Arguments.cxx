@@ -335,11 +335,16 @@ void SolveArguments::AddTo(CLI::App* command) {
       ->capture_default_str();
   command->add_option("--time", time, "Seconds since the program began, writing included")
       ->check(Within(1e-3, 1e9, "from 0.001 to 1e9"));
+  command->add_option("--max-memory", solver.memoryLimit, "MB of the process, writing included")
+      ->check(Within(1, 1e9, "from 1 to 1e9"));
   command->add_option("--iterations", solver.iterations, "Iterations after which to end")
       ->check(CLI::Range(1, 1000000));
   command->add_flag("!--no-final-gather", solver.finalGather,
                     "Deliver what links brought, without gathering anew at the points");
   AddRefinementOptions(command, &solver);
+  command->add_option("--save-state", solver.saveState,
+                      "File that gets all that a later run needs to go on from here");
+  command->add_option("--resume", solver.resume, "File of --save-state that this run goes on from");
   command->add_option("--threads", threads, "Threads; 0: all processors")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
@@ -398,6 +403,8 @@ void SolveArguments::Check() const {
   }
   FilesOfRun files(scene.files);
   files.Add("--probe", probe, false);
+  files.Add("--resume", solver.resume, false);
+  if (solver.saveState != solver.resume) files.Add("--save-state", solver.saveState, true);
   files.Add("--output", output, true);
   if (FileEnding(output) == ".obj") {
     for (const std::string& name : FilesBesideObj(output, 1)) files.Add("--output", name, true);

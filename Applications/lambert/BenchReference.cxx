@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Random.h"
+#include "Scene/Core/SceneKey.h"
 #include "Visibility/Core/SolutionLookup.h"
 
 namespace lambert {
@@ -24,36 +24,13 @@ constexpr double kLeastLight = 1e-6;
 /// Of the file and of how receivers are chosen and traced: another one is traced anew.
 constexpr uint64_t kVersion = 4;
 
-template <class T>
-uint64_t HashOf(const std::vector<T>& values, uint64_t seed) {
-  static_assert(std::is_trivially_copyable_v<T>);
-  uint64_t hash = HashBits(seed, values.size());
-  const auto* bytes = reinterpret_cast<const char*>(values.data());
-  for (size_t i = 0, size = values.size() * sizeof(T); i < size; i += sizeof(uint64_t)) {
-    uint64_t word = 0;
-    std::memcpy(&word, bytes + i, std::min(sizeof word, size - i));
-    hash = HashBits(hash, word);
-  }
-  return hash;
-}
-
 /// All that light depends on, and what is asked of the reference.
 uint64_t ContentKey(const Scene& scene, const BenchReferenceOptions& options) {
-  const TriangleMesh& mesh = scene.mesh;
+  const SceneKey content = KeyOf(scene);
   uint64_t key = HashBits(kVersion, options.seed);
   key = HashBits(key, uint64_t(options.receivers) << 32 | uint64_t(options.paths));
-  key = HashOf(mesh.positions, key);
-  key = HashOf(mesh.normals, key);
-  key = HashOf(mesh.triangles, key);
-  key = HashOf(mesh.reflectance, key);
-  key = HashOf(mesh.emittance, key);
-  key = HashOf(mesh.faceFlags, key);
-  for (const Light& light : scene.lights) {
-    key = HashOf<float>(
-        {float(light.type), light.position.x, light.position.y, light.position.z, light.direction.x,
-         light.direction.y, light.direction.z, light.intensity.r, light.intensity.g,
-         light.intensity.b, light.innerConeAngle, light.outerConeAngle},
-        key);
+  for (const uint64_t part : {content.geometry, content.materials, content.lights}) {
+    key = HashBits(key, part);
   }
   return key;
 }

@@ -19,6 +19,7 @@
 #include "Engine/SolutionFile.h"
 #include "Interrupt.h"
 #include "ProgressDisplay.h"
+#include "Radiosity/Core/SolverState.h"
 #include "Scene/vtkSceneAdapter.h"
 
 namespace lambert {
@@ -26,8 +27,9 @@ namespace {
 
 /// Everything that can be refused is refused before the solver's first second.
 void CheckOutputs(const SolveArguments& arguments) {
-  for (const std::string& name : {arguments.output, arguments.image, arguments.report,
-                                  arguments.probeOutput, arguments.lightMap}) {
+  for (const std::string& name :
+       {arguments.output, arguments.image, arguments.report, arguments.probeOutput,
+        arguments.lightMap, arguments.solver.saveState}) {
     if (!name.empty()) RequireWritable(name);
   }
   if (FileEnding(arguments.output) == ".html") RequireHtmlPage();
@@ -181,6 +183,7 @@ void Stage(const char* name, ProgressDisplay* display, RadiosityRun* run, const 
 int Solve(const SolveArguments& arguments) {
   // What can be refused at once.
   CheckOutputs(arguments);
+  if (!arguments.solver.resume.empty()) RequireSolverState(arguments.solver.resume);
   const std::vector<ProbePoint> probes =
       arguments.probe.empty() ? std::vector<ProbePoint>() : ReadProbeFile(arguments.probe);
   SetThreadCount(arguments.threads);

@@ -2,6 +2,7 @@
 
 #include "Clustering/Core/ClusterCut.h"
 #include "Clustering/Core/FaceClustering.h"
+#include "Clustering/Core/KeptClustering.h"
 #include "Common/Core/Error.h"
 #include "vtkCellData.h"
 #include "vtkClusterTreeAdapter.h"
@@ -19,7 +20,8 @@ vtkStandardNewMacro(vtkFaceClustering);
 
 vtkFaceClustering::vtkFaceClustering()
     : Options(new lambert::FaceClusteringOptions),
-      Statistics(new lambert::FaceClusteringStatistics) {
+      Statistics(new lambert::FaceClusteringStatistics),
+      Clustering(new lambert::KeptClustering) {
   this->SetNumberOfOutputPorts(2);
 }
 
@@ -76,7 +78,7 @@ int vtkFaceClustering::RequestData(vtkInformation*, vtkInformationVector** input
   };
   try {
     lambert::Scene scene = lambert::SceneFromPolyData(vtkPolyData::GetData(inputs[0]));
-    const lambert::ClusterTree tree = lambert::ClusterFaces(
+    const lambert::ClusterTree& tree = this->Clustering->Cluster(
         &scene.mesh, scene.parts, *this->Options, this->Statistics.get(), progress);
     lambert::PolyDataFromScene(scene, mesh);
     lambert::TableFromClusterTree(tree, table);

@@ -20,6 +20,7 @@
 namespace lambert {
 struct FaceClusteringOptions;
 struct FaceClusteringStatistics;
+class KeptClustering;
 }  // namespace lambert
 
 class LAMBERTCLUSTERING_EXPORT vtkFaceClustering : public vtkPolyDataAlgorithm {
@@ -46,7 +47,8 @@ class LAMBERTCLUSTERING_EXPORT vtkFaceClustering : public vtkPolyDataAlgorithm {
   vtkGetMacro(ClusterCount, vtkIdType);
   ///@}
 
-  ///@{ What the last run met.
+  ///@{ What the last clustering met. Input that comes with other materials alone, or another cut,
+  /// is not clustered again.
   vtkIdType GetNumberOfSurfaces();
   vtkIdType GetNumberOfNodes();
   /// Parts that took the tree of another part of the same mesh.
@@ -73,6 +75,7 @@ class LAMBERTCLUSTERING_EXPORT vtkFaceClustering : public vtkPolyDataAlgorithm {
 
   std::unique_ptr<lambert::FaceClusteringOptions> Options;
   std::unique_ptr<lambert::FaceClusteringStatistics> Statistics;
+  std::unique_ptr<lambert::KeptClustering> Clustering;
   int Level = 0;
   vtkIdType ClusterCount = 0;
 };

@@ -27,7 +27,14 @@ constexpr int kVerificationGrowth = 4;
 /// Reconstruction takes a time for the mesh and a time for every link; both are measured.
 class TimeBudget {
  public:
-  TimeBudget(double limit, double fixedSeconds) : Limit(limit), FixedSeconds(fixedSeconds) {}
+  /// `history` is of the run that this one goes on from, whose last iteration is heard of again.
+  TimeBudget(double limit, double fixedSeconds, const std::vector<IterationRecord>& history)
+      : Limit(limit), FixedSeconds(fixedSeconds) {
+    if (history.size() > 1) {
+      this->LastEnd = history[history.size() - 2].seconds;
+      this->LastLinks = static_cast<double>(history[history.size() - 2].links);
+    }
+  }
 
   bool NextFits(const IterationRecord& record, const HierarchicalRadiosity& solver) {
     if (this->Limit <= 0) {
@@ -135,7 +142,6 @@ void RadiosityRun::Solve(const ProgressCallback& progress, const std::function<b
 
   // Iterate. The clock and the user end a run at the border of an iteration only.
   Timer timer;
-  TimeBudget budget(this->options_.timeLimit, this->options_.outputSeconds);
   std::string stoppedBy;
   HierarchicalRadiosityOptions options = this->options_.solver;
   if (this->options_.timeLimit > 0) {
@@ -143,6 +149,8 @@ void RadiosityRun::Solve(const ProgressCallback& progress, const std::function<b
         1e-3, this->options_.timeLimit - SecondsSinceProcessStart() - this->options_.outputSeconds);
   }
   HierarchicalRadiosity solver(this->scene_, this->tree_, options);
+  TimeBudget budget(this->options_.timeLimit, this->options_.outputSeconds,
+                    solver.Statistics().history);
   bool hasLight = false;
   solver.Run(
       [&](double fraction, const char* stage) {

@@ -118,11 +118,13 @@ Json MethodJson(const RadiosityRunOptions& options) {
   if (options.method.method == SolveMethod::Hierarchical) {
     method["error"] = options.solver.error;
     method["time"] = options.timeLimit;
+    method["max_memory"] = options.solver.memoryLimit;
     method["iterations"] = options.solver.iterations;
     method["final_gather"] = options.solver.finalGather;
     method["oracle"] = OracleName(options.solver.oracle);
     method["schedule"] = ScheduleName(options.solver.schedule);
     method["refinement"] = RefinementName(options.solver.leafMesh.refinement);
+    if (!options.solver.resume.empty()) method["resume"] = options.solver.resume;
   }
   for (const auto& [name, value] : ValuesOf(options.method)) {
     method[name] = value == std::floor(value) ? Json(static_cast<int64_t>(value)) : Json(value);

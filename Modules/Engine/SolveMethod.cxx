@@ -9,8 +9,8 @@ const std::vector<SolveMethodTraits>& SolveMethods() {
   static const std::vector<SolveMethodTraits> methods{
       {SolveMethod::Hierarchical,
        "hierarchical",
-       {"--error", "--time", "--iterations", "--no-final-gather", "--oracle", "--refinement",
-        "--schedule", "--snap-tolerance"}},
+       {"--error", "--time", "--max-memory", "--iterations", "--no-final-gather", "--save-state",
+        "--resume", "--oracle", "--refinement", "--schedule", "--snap-tolerance"}},
       {SolveMethod::Reference, "reference", {"--samples", "--seed"}},
       {SolveMethod::Matrix, "matrix", {"--element-size"}},
       {SolveMethod::Progressive, "progressive", {"--element-size"}},

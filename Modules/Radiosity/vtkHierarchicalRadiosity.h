@@ -23,6 +23,8 @@
 
 #include <memory>  // for the options
 
+class vtkTable;
+
 namespace lambert {
 struct HierarchicalRadiosityOptions;
 }
@@ -41,6 +43,11 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   /// limit.
   void SetTimeLimit(double seconds);
   double GetTimeLimit();
+  ///@}
+  ///@{ MB (1e6 bytes) of the process, [0, inf): links are refined and light is gathered as long as
+  /// that and the delivery stay below, the first iteration in any case; default 0: no limit.
+  void SetMemoryLimit(double megabytes);
+  double GetMemoryLimit();
   ///@}
   ///@{ Iterations after which the run ends; default 0: as many as the error asks for.
   void SetIterations(int iterations);
@@ -90,6 +97,27 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   int GetSchedule();
   void SetScheduleToScheduled() { this->SetSchedule(SCHEDULED); }
   void SetScheduleToInterleaved() { this->SetSchedule(INTERLEAVED); }
+  ///@{ Whether elements, links and visibility stay in memory after a run; default on. Where the
+  /// input
+  /// then comes with other `Reflectance`, `Emittance` or emitting sides and nothing else has
+  /// changed, the light they have there is shown at once, to observers of UpdateDataEvent too, and
+  /// refined from there: nothing is clustered or traced again. The result is within the error of
+  /// that of a new run, not the same bits.
+  vtkSetMacro(KeepLinks, bool);
+  vtkGetMacro(KeepLinks, bool);
+  vtkBooleanMacro(KeepLinks, bool);
+  ///@}
+  ///@{ File that gets the state at the end of every iteration of links, whole or not at all;
+  /// default
+  /// empty: none.
+  void SetStateFileName(const char* file);
+  const char* GetStateFileName();
+  ///@}
+  ///@{ File of StateFileName that a run of the same input goes on from, to the same light as a run
+  /// that was never stopped; default empty: from the beginning. A file of another input is an
+  /// error.
+  void SetResumeFileName(const char* file);
+  const char* GetResumeFileName();
   ///@}
 
  protected:
@@ -101,7 +129,12 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   vtkHierarchicalRadiosity(const vtkHierarchicalRadiosity&) = delete;
   void operator=(const vtkHierarchicalRadiosity&) = delete;
 
+  struct Solver;
+  bool PrepareSolver(vtkPolyData* input, vtkTable* clusters, const Progress& progress);
+
   std::unique_ptr<lambert::HierarchicalRadiosityOptions> Options;
+  std::unique_ptr<Solver> Kept;  ///< of the last run
+  bool KeepLinks = true;
 };
 
 #endif

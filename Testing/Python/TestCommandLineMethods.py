@@ -19,7 +19,7 @@ def irradiance(name):
 
 # The default is hierarchical, and says so.
 report = solve(CORNELL_BOX, "-o", out, "--error", "0.3", "--iterations", "1")
-assert report["method"] == {"name": "hierarchical", "error": 0.3, "time": 0, "iterations": 1, "final_gather": True,
+assert report["method"] == {"name": "hierarchical", "error": 0.3, "time": 0, "max_memory": 0, "iterations": 1, "final_gather": True,
                             "oracle": "doubt", "schedule": "scheduled", "refinement": "rectangle"}, report["method"]
 assert report["requested_error"] == 0.3 and "clustering" in report and "energy_w" in report
 

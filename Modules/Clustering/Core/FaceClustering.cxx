@@ -5,6 +5,7 @@
 
 #include "Clustering/Core/DualGraph.h"
 #include "Clustering/Core/DualGraphCollapse.h"
+#include "Clustering/Core/FaceOrder.h"
 #include "Clustering/Core/PartInstances.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
@@ -161,26 +162,6 @@ int32_t LayOutTree(const MergeTree& tree, const Placement& at, ClusterNode* node
     visits.push_back({a, node.child, visit.depth + 1});
   }
   return depth;
-}
-
-template <class T>
-void Permute(const std::vector<int32_t>& order, std::vector<T>* values) {
-  if (values->empty()) return;
-  std::vector<T> permuted(values->size());
-  ParallelForEach(int64_t(order.size()), 4096,
-                  [&](int64_t i) { permuted[size_t(i)] = (*values)[size_t(order[size_t(i)])]; });
-  values->swap(permuted);
-}
-
-/// order[new face] = old face, for every per-face array.
-void ReorderFaces(const std::vector<int32_t>& order, TriangleMesh* mesh) {
-  Permute(order, &mesh->triangles);
-  Permute(order, &mesh->reflectance);
-  Permute(order, &mesh->emittance);
-  Permute(order, &mesh->faceFlags);
-  Permute(order, &mesh->materialId);
-  Permute(order, &mesh->partId);
-  Permute(order, &mesh->sourceCellId);
 }
 
 /// Area, vector area (4.9) and bounds: of the leaves from their faces, of the others from their

@@ -125,9 +125,7 @@ ElementHierarchy::ElementHierarchy(const Scene& scene, const ClusterTree& tree,
   std::vector<int32_t> reflecting, black;
   for (size_t surface = 0; surface < tree.surfaceRoots.size(); ++surface) {
     if (!litSides[surface]) continue;
-    const ClusterNode& node = tree.nodes[size_t(tree.surfaceRoots[surface])];
-    const bool blackEmitter = EmitsSomewhere(mesh, node) && ReflectsNothing(mesh, node);
-    (blackEmitter ? black : reflecting).push_back(int32_t(surface));
+    (IsBlackEmitter(int32_t(surface)) ? black : reflecting).push_back(int32_t(surface));
   }
   root_ = BuildVolumes(reflecting);
   emitterRoot_ = BuildVolumes(black);
@@ -152,6 +150,32 @@ void ElementHierarchy::AddLight(const LightSource& source, int32_t item) {
     light.emittance[band] = source.Strength()[band];
     if (!light.emittance.IsBlack()) lights_.push_back(Append(light));
   }
+}
+
+bool ElementHierarchy::IsBlackEmitter(int32_t surface) const {
+  const ClusterNode& node = tree_.nodes[size_t(tree_.surfaceRoots[size_t(surface)])];
+  return EmitsSomewhere(scene_.mesh, node) && ReflectsNothing(scene_.mesh, node);
+}
+
+bool ElementHierarchy::TakeMaterials() {
+  for (const int32_t side : surfaceSides_) {
+    if (IsReceiver(side) == IsBlackEmitter(elements_[size_t(side)].surface)) return false;
+  }
+
+  // Faces by their clusters, patches by their parents, volumes by their surfaces.
+  for (const std::vector<int32_t>& level : levels_) {
+    ParallelForEach(int64_t(level.size()), 64, [&](int64_t i) {
+      Element& element = elements_[size_t(level[size_t(i)])];
+      if (element.kind == ElementKind::Face) {
+        AverageMaterial(scene_.mesh, faceRuns_, tree_.nodes[size_t(element.item)], &element);
+      } else if (element.kind == ElementKind::Patch) {
+        element.reflectance = elements_[size_t(element.parent)].reflectance;
+        element.emittance = elements_[size_t(element.parent)].emittance;
+      }
+    });
+  }
+  if (root_ >= 0) FinishVolumes(root_);
+  return true;
 }
 
 int32_t ElementHierarchy::Append(const Element& element) {

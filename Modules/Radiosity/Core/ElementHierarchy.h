@@ -25,6 +25,8 @@ class ElementHierarchy {
   const std::vector<Element>& Elements() const { return elements_; }
   const Element& operator[](int32_t element) const { return elements_[size_t(element)]; }
   int32_t Size() const { return int32_t(elements_.size()); }
+  /// Elements for which there is room before all move to another place.
+  size_t Capacity() const { return elements_.capacity(); }
 
   int32_t Root() const { return root_; }  ///< over all surfaces but black emitters; -1 for none
   int32_t EmitterRoot() const {
@@ -46,6 +48,11 @@ class ElementHierarchy {
   /// Gives children to each of `parents` (sorted, unique) that has none and can have some. An
   /// element at the floor is marked canSplit = false instead.
   void Split(const std::vector<int32_t>& parents);
+
+  /// Reflectance and emittance of all elements by those that the faces of the scene have now.
+  /// False, with nothing changed, where other surfaces than before emit and do not reflect: these
+  /// are clustered apart.
+  bool TakeMaterials();
 
   /// Corners of a polygon element, counter-clockwise seen from its side; returns their count.
   int PolygonCorners(const Element& element, Vec3f* corners) const;
@@ -77,6 +84,7 @@ class ElementHierarchy {
   Element MakeFaceElement(int32_t node, Side side, int32_t surface) const;
   Place PlaceInCluster(const ClusterNode& node, Side side, double u, Random* random) const;
   Element MakePatchElement(int32_t patch, const Element& parent) const;
+  bool IsBlackEmitter(int32_t surface) const;
   bool BelowFloor(const Element& element) const;
   void FinishVolumes(int32_t root);
 

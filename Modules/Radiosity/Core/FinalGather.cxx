@@ -65,7 +65,7 @@ FinalGather::FinalGather(const ElementHierarchy& hierarchy, const RayScene& rayS
   const size_t faces = hierarchy.GetScene().mesh.triangles.size();
   for (std::vector<int32_t>& element : elementOfFace_) element.assign(faces, -1);
   polygonIrradiance_.resize(size_t(hierarchy.Size()));
-  cuts_.resize(size_t(hierarchy.Size()));
+  parts_.resize(size_t(hierarchy.Size()));
   sampleIrradiance_.resize(size_t(hierarchy.Size()));
   sampleDirect_.resize(size_t(hierarchy.Size()));
   hasGathered_.resize(size_t(hierarchy.Size()), 0);
@@ -75,7 +75,7 @@ FinalGather::FinalGather(const ElementHierarchy& hierarchy, const RayScene& rayS
     if (element.IsPolygon()) {
       polygonIrradiance_[size_t(index)] =
           ElementIrradiance(element, light->irradiance[size_t(index)]);
-      if (!element.IsLeaf()) this->FindCut(index);
+      if (!element.IsLeaf()) this->FindParts(index);
     }
     if (element.kind != ElementKind::Face || !(element.IsLeaf() || element.IsPolygon())) continue;
     const ClusterNode& node = hierarchy.Tree().nodes[size_t(element.item)];
@@ -83,36 +83,39 @@ FinalGather::FinalGather(const ElementHierarchy& hierarchy, const RayScene& rayS
   }
 }
 
-// The edge of the first half that has all of the second behind it.
-void FinalGather::FindCut(int32_t index) {
+// Of each part but the first, the edge that has all earlier ones behind it.
+void FinalGather::FindParts(int32_t index) {
   const Element& element = hierarchy_[index];
-  Vec3f first[kMaximumPolygonCorners], second[kMaximumPolygonCorners];
-  const int count = hierarchy_.PolygonCorners(hierarchy_[element.child], first);
-  const int others = hierarchy_.PolygonCorners(hierarchy_[element.child + 1], second);
-  Cut& cut = cuts_[size_t(index)];
-  cut.child = element.child;
-  float least = std::numeric_limits<float>::max();
-  for (int i = 0; i < count; ++i) {
-    const Vec3f inward = Normalize(Cross(element.axis, first[(i + 1) % count] - first[i]));
-    float farthest = std::numeric_limits<float>::lowest();
-    for (int j = 0; j < others; ++j) {
-      farthest = std::max(farthest, Dot(inward, second[j] - first[i]));
+  parts_[size_t(index)].child = element.child;
+  parts_[size_t(index)].childCount = element.childCount;
+  std::vector<Vec3f> earlier;
+  for (int32_t child = element.child; child < element.child + element.childCount; ++child) {
+    Vec3f corners[kMaximumPolygonCorners];
+    const int count = hierarchy_.PolygonCorners(hierarchy_[child], corners);
+    Part& part = parts_[size_t(child)];
+    float least = std::numeric_limits<float>::max();
+    for (int i = 0; i < count; ++i) {
+      const Vec3f inward = Normalize(Cross(element.axis, corners[(i + 1) % count] - corners[i]));
+      float farthest = std::numeric_limits<float>::lowest();
+      for (const Vec3f& p : earlier) farthest = std::max(farthest, Dot(inward, p - corners[i]));
+      if (inward == Vec3f() || farthest >= least) continue;
+      least = farthest;
+      part.normal = inward;
+      part.offset = -Dot(inward, corners[i]);
     }
-    if (inward == Vec3f() || farthest >= least) continue;
-    least = farthest;
-    cut.normal = inward;
-    cut.offset = -Dot(inward, first[i]);
+    earlier.insert(earlier.end(), corners, corners + count);
   }
 }
 
 int32_t FinalGather::LeafAt(int64_t face, Side side, const Vec3f& position) const {
   int32_t index = elementOfFace_[side][size_t(face)];
-  if (index < 0) return -1;
-  for (;;) {
-    const Cut& cut = cuts_[size_t(index)];
-    if (cut.child < 0) return index;
-    index = cut.child + (Dot(cut.normal, position) + cut.offset >= 0 ? 0 : 1);
+  while (index >= 0 && parts_[size_t(index)].child >= 0) {
+    const int32_t first = parts_[size_t(index)].child;
+    index = first + parts_[size_t(index)].childCount - 1;
+    const auto isOutside = [&](const Part& p) { return Dot(p.normal, position) + p.offset < 0; };
+    while (index > first && isOutside(parts_[size_t(index)])) --index;
   }
+  return index;
 }
 
 // What arrives at the samples of a leaf, in the mean.

@@ -102,13 +102,14 @@ class FinalGather {
   void GatherBatch(const GatherPoint* points, int count, const BounceRays& rays, BounceSum* sums,
                    int64_t* cast) const;
 
-  /// Where a polygon was cut: its first child lies where the plane is not negative.
-  struct Cut {
+  /// A triangle or patch as a part of what was cut: it lies where the plane is not negative, its
+  /// earlier siblings on the other side.
+  struct Part {
     Vec3f normal;
     float offset = 0;
-    int32_t child = -1;  ///< the first one; -1: not cut
+    int32_t child = -1, childCount = 0;  ///< its own parts; -1: it was not cut
   };
-  void FindCut(int32_t index);
+  void FindParts(int32_t index);
 
   const ElementHierarchy& hierarchy_;
   const RayScene& rayScene_;
@@ -125,7 +126,7 @@ class FinalGather {
   std::vector<uint8_t> hasGathered_;                                    ///< by element
   std::vector<uint8_t> isUneven_;  ///< by element: its samples may lie on two sides of a wall
   float meanRadiosity_ = 0;        ///< of the leaves that have gathered, what they reflect, W/m2
-  std::vector<Cut> cuts_;          ///< by element, of triangles and patches
+  std::vector<Part> parts_;        ///< by element, of triangles and patches
 };
 
 }  // namespace lambert

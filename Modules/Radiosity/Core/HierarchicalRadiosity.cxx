@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "Common/Core/Error.h"
-#include "Common/Core/Random.h"
 #include "Common/Core/Timer.h"
 #include "Radiosity/Core/EnergyBalance.h"
 #include "Radiosity/Core/ExposureSplitting.h"
@@ -17,7 +16,9 @@
 #include "Radiosity/Core/LinkRefinement.h"
 #include "Radiosity/Core/LitSides.h"
 #include "Radiosity/Core/RefinedMesh.h"
-#include "Reference/Core/SolutionError.h"
+#include "Radiosity/Core/SolverMemory.h"
+#include "Radiosity/Core/SolverState.h"
+#include "Radiosity/Core/Verification.h"
 #include "Visibility/Core/RayScene.h"
 
 namespace lambert {
@@ -59,12 +60,9 @@ double LinkProgress(const HierarchicalRadiosityOptions& options, double done, in
 
 /// Gathers, each with its rounds of cuts, before it is said that the error cannot be met.
 constexpr int kMostGathers = 4;
-/// What the error must fall to for another attempt to be worth it, and the attempts in a row that
-/// have to fail to; a single iteration of links may gain nothing and the next one much.
-constexpr double kLeastGain = 0.9;
+/// Attempts in a row that gain too little before a run gives up; a single iteration of links may
+/// gain nothing and the next one much.
 constexpr int kGatherPatience = 1, kLinkPatience = 2;
-/// An error counts as met a little below the request: the points that verify it are a sample.
-constexpr double kVerifiedBelow = 0.95;
 /// The next gather aims this far below the wanted error.
 constexpr double kAimBelow = 0.85;
 /// The first round of cuts takes at most about this part of the time of the gather before it, a
@@ -74,10 +72,6 @@ constexpr double kFirstRound = 0.75, kRoundGrowth = 1.5;
 /// out (leaves).
 constexpr int64_t kTrialPoints = 1024;
 constexpr double kTrialReserve = 1.2;
-/// Paths a point for verification.
-constexpr int kVerificationSamples = 256;
-/// Up to so many times as many paths where those leave it open whether the request is met.
-constexpr int kVerificationGrowth = 16;
 
 /// Rays of every point and of a leaf of mean area over the hemisphere, times the error; what their
 /// scatter may leave, of the wanted error.
@@ -121,43 +115,21 @@ double SourcePower(const Scene& scene) {
   return double(power.MaxBand());
 }
 
-/// Verifies what is delivered time and again, until it is what was asked for or gets no better.
-class Verification {
- public:
-  /// Gives up after `patience` attempts in a row that gain too little. All by reference.
-  Verification(const Scene& scene, const HierarchicalRadiosityOptions& options, int patience)
-      : scene_(scene), options_(options), patience_(patience) {}
-
-  /// Error of `solution`, the one that counts.
-  double Measure(const RadiositySolution& solution) {
-    // Another set of points each time, or the second would be chosen by the first.
-    SolutionErrorOptions verification;
-    verification.points = options_.verificationPoints;
-    verification.samples = kVerificationSamples;
-    verification.seed = HashBits(0x76657269u, uint64_t(++attempts_));
-    verification.growth = options_.timeLimit > 0 ? 1 : kVerificationGrowth;
-    verification.enough = kVerifiedBelow * options_.error;
-    error_ = MeasureSolutionError(scene_, solution, verification).Counting();
-    const bool isBetter = attempts_ == 1 || error_ <= kLeastGain * best_;
-    if (isBetter) best_ = error_;
-    idle_ = isBetter ? 0 : idle_ + 1;
-    return error_;
+/// The sides of every face that give light.
+std::vector<uint8_t> EmittingSides(const TriangleMesh& mesh) {
+  std::vector<uint8_t> sides(mesh.triangles.size(), 0);
+  for (size_t face = 0; face < sides.size(); ++face) {
+    if (mesh.emittance[face].IsBlack()) continue;
+    sides[face] = mesh.faceFlags[face] & (kEmitsFront | kEmitsBack);
   }
+  return sides;
+}
 
-  double Error() const { return error_; }
-  /// Why to stop: "error" or "floor"; empty: go on. What is not verified counts as met.
-  std::string Verdict() const {
-    if (error_ <= kVerifiedBelow * options_.error) return "error";
-    return idle_ >= patience_ ? "floor" : "";
-  }
-
- private:
-  const Scene& scene_;
-  const HierarchicalRadiosityOptions& options_;
-  const int patience_;
-  int attempts_ = 0, idle_ = 0;
-  double error_ = -1, best_ = 0;
-};
+/// Iterations of links that the falling threshold takes to `last`.
+int IterationsTo(double last) {
+  const double steps = std::log(last / kFirstThreshold) / std::log(kThresholdFactor);
+  return std::max(1, 1 + int(std::ceil(steps)));
+}
 
 }  // namespace
 
@@ -180,10 +152,12 @@ struct HierarchicalRadiosity::Implementation {
                  const HierarchicalRadiosityOptions& options_)
       : scene(Checked(scene_)),
         options(options_),
+        emittingSides(EmittingSides(scene_.mesh)),
         rayScene(scene_.mesh),
         litSides(FindLitSides(scene_, tree, rayScene, &statistics.rays)),
         hierarchy(scene_, tree, litSides, options_.leafMesh),
         oracle(MakeRefinementOracle(options_.oracle, hierarchy, rayScene)),
+        memory(options_.memoryLimit, hierarchy, litSides),
         received(SourcePower(scene_)) {
     if (!(options.error > 0 && options.error <= 1)) {
       throw Error("The wanted error is " + std::to_string(options.error) +
@@ -192,10 +166,15 @@ struct HierarchicalRadiosity::Implementation {
     light.Grow(hierarchy);
     MakeInitialLinks(hierarchy, &network);
     network.rays = statistics.rays;
+    if (options.resume.empty()) return;
+    SolverState state = this->State();
+    LoadSolverState(options.resume, &state);
+    secondsBefore = statistics.history.back().seconds;
   }
 
   const Scene& scene;
   const HierarchicalRadiosityOptions options;
+  std::vector<uint8_t> emittingSides;  ///< per face
   SolverStatistics statistics;
   RayScene rayScene;
   std::vector<uint8_t> litSides;
@@ -205,14 +184,23 @@ struct HierarchicalRadiosity::Implementation {
   LinkNetwork network;
   std::vector<Exposure> exposures;
   std::optional<RadiositySolution> delivered;  ///< once gathered or verified
-  Timer clock;                                 ///< since the run began
+  const SolverMemory memory;
+  double firstThreshold = kFirstThreshold;
+  bool isFull = false;       ///< the last refinement found no room
+  Timer clock;               ///< since the run began
+  double secondsBefore = 0;  ///< that runs took which this one goes on from
   double
       received;  ///< power that the leaves receive, W, largest band; thresholds are fractions of it
 
+  SolverState State() {
+    return {hierarchy, light, network, exposures, received, statistics.history};
+  }
+  double Seconds() const { return secondsBefore + clock.Seconds(); }
   bool RefineAndExchange(double last, double* threshold, double* change,
                          const ProgressCallback& progress);
   double Exchange(double tolerance);
   RadiositySolution Reconstruct();
+  bool EndsHere(bool goOn);
   bool EndsVerified(Verification* verification);
   bool HasTimeFor(double seconds) const {
     return !(options.timeLimit > 0 && clock.Seconds() + seconds > options.timeLimit);
@@ -232,38 +220,41 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
   Implementation& self = *implementation_;
   SolverStatistics& statistics = self.statistics;
   self.clock.Restart();
-  double last = FinalThreshold(self.options), threshold = kFirstThreshold;
-  const int usual = std::max(
-      1, 1 + int(std::ceil(std::log(last / kFirstThreshold) / std::log(kThresholdFactor))));
+  const int usual = IterationsTo(FinalThreshold(self.options));
+
+  // A resumed run stands at the border of the iteration that was its last.
+  bool isResumed = !statistics.history.empty();
+  double threshold = isResumed ? statistics.history.back().threshold : self.firstThreshold;
+  double last = std::min(FinalThreshold(self.options), threshold);
   Verification verification(self.scene, self.options, kLinkPatience);
-  for (int iteration = 1; statistics.stoppedBy.empty(); ++iteration) {
+  verification.Recall(statistics.history);
+  for (int iteration = std::max(1, int(statistics.history.size())); statistics.stoppedBy.empty();
+       ++iteration, isResumed = false) {
     const Timer iterationTimer;
     const ProgressCallback part = [&](double fraction, const char* stage) {
       return Report(progress, LinkProgress(self.options, iteration - 1 + fraction, usual), stage);
     };
-    double change = 0;
-    if (!self.RefineAndExchange(last, &threshold, &change, part)) {
-      statistics.stoppedBy = "interrupt";
-      break;
+    if (!isResumed) {
+      double change = 0;
+      if (!self.RefineAndExchange(last, &threshold, &change, part)) {
+        statistics.stoppedBy = self.isFull ? "memory" : "interrupt";
+        break;
+      }
+      statistics.history.push_back({iteration, self.Seconds(), threshold, self.hierarchy.Size(),
+                                    self.network.Count(), self.network.rays, change});
     }
 
     // The border of an iteration: the only place where a run ends.
-    statistics.history.push_back({iteration, self.clock.Seconds(), threshold, self.hierarchy.Size(),
-                                  self.network.Count(), self.network.rays, change});
+    if (!self.options.saveState.empty()) SaveSolverState(self.State(), self.options.saveState);
     const bool goOn = (!observer || observer(statistics.history.back())) && part(1, "iterating");
-    if (self.options.iterations > 0 && iteration >= self.options.iterations) {
-      statistics.stoppedBy = "iterations";
-      break;
-    }
-    if (!goOn) {
-      statistics.stoppedBy = "interrupt";
-      break;
-    }
+    if (self.EndsHere(goOn)) break;
 
     // Links as fine as the request usually asks for: gather, or see whether they are good enough.
     if (threshold <= last && self.options.finalGather) {
       if (self.options.timeLimit > 0 && !self.HasTimeFor(self.PredictGatherSeconds())) {
         statistics.stoppedBy = "time";
+      } else if (!self.memory.HasRoomForGather()) {
+        statistics.stoppedBy = "memory";
       } else {
         this->GatherUntilMet(progress, observer);
       }
@@ -274,6 +265,7 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
       last = threshold * kThresholdFactor;
     }
     if (!self.HasTimeFor(iterationTimer.Seconds())) statistics.stoppedBy = "time";
+    if (!self.memory.HasRoomForIteration(statistics.history)) statistics.stoppedBy = "memory";
     threshold *= kThresholdFactor;
   }
   self.Count();
@@ -287,11 +279,15 @@ bool HierarchicalRadiosity::Implementation::RefineAndExchange(double last, doubl
                                                               const ProgressCallback& progress) {
   const bool isInterleaved = options.schedule == Schedule::Interleaved;
   const auto tolerance = [&] { return *threshold <= last ? kLastSweepTolerance : kSweepTolerance; };
+  const RoomCallback hasRoom = [&](int64_t elements, int64_t links) {
+    isFull = !statistics.history.empty() && !memory.HasRoomFor(double(elements), double(links));
+    return !isFull;
+  };
   for (;; *threshold *= kThresholdFactor) {
     *threshold = std::max(last, *threshold);
     do {
       if (!RefineLinks(*threshold * received, *oracle, rayScene, &hierarchy, &light, &network,
-                       progress)) {
+                       progress, hasRoom)) {
         return false;
       }
       delivered.reset();
@@ -323,6 +319,17 @@ double HierarchicalRadiosity::Implementation::Exchange(double tolerance) {
     }
   }
   return change;
+}
+
+// Whether the run was to end at the border of this iteration, or is not to go on.
+bool HierarchicalRadiosity::Implementation::EndsHere(bool goOn) {
+  const int done = statistics.history.back().iteration;
+  if (options.iterations > 0 && done >= options.iterations) {
+    statistics.stoppedBy = "iterations";
+  } else if (!goOn) {
+    statistics.stoppedBy = "interrupt";
+  }
+  return !statistics.stoppedBy.empty();
 }
 
 // By what a few points take that stand for all.
@@ -428,22 +435,18 @@ void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
       // The border of an iteration.
       IterationRecord record = statistics.history.back();
       ++record.iteration;
-      record.seconds = self.clock.Seconds();
+      record.seconds = self.Seconds();
       record.rays = self.network.rays;
       record.error = -1;
       statistics.history.push_back(record);
       const bool goOn = !observer || observer(record);
       const double next = (round == 0 ? kFirstRound : kRoundGrowth) * iterationTimer.Seconds();
-      if (self.options.iterations > 0 && record.iteration >= self.options.iterations) {
-        statistics.stoppedBy = "iterations";
-      } else if (!goOn) {
-        statistics.stoppedBy = "interrupt";
-      } else if (!self.HasTimeFor(next)) {
-        statistics.stoppedBy = "time";
-      } else {
-        continue;
+      if (self.EndsHere(goOn)) return;
+      if (!self.HasTimeFor(next)) statistics.stoppedBy = "time";
+      if (!self.memory.HasRoomForCuts(*self.delivered)) {
+        statistics.stoppedBy = "memory";
       }
-      return;
+      if (!statistics.stoppedBy.empty()) return;
     }
     if (self.EndsVerified(&verification)) return;
     // More rays take away no more than their scatter.
@@ -452,6 +455,31 @@ void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
     aim *= std::min(0.8, std::max(0.35, kAimBelow * self.options.error / verification.Error()));
   }
   statistics.stoppedBy = "floor";
+}
+
+bool HierarchicalRadiosity::Relight() {
+  // What light reaches, and what only emits, has to be what it was.
+  Implementation& self = *implementation_;
+  std::vector<uint8_t> emittingSides = EmittingSides(self.scene.mesh);
+  if (emittingSides != self.emittingSides &&
+      FindLitSides(self.scene, self.hierarchy.Tree(), self.rayScene, &self.network.rays) !=
+          self.litSides) {
+    return false;
+  }
+  if (!self.hierarchy.TakeMaterials()) return false;
+  self.emittingSides = std::move(emittingSides);
+
+  // The light of the links there are; a run begins where their refinement ended.
+  self.Exchange(kLastSweepTolerance);
+  self.received = std::max(SourcePower(self.scene), ReceivedPower(self.hierarchy, self.light));
+  self.delivered.reset();
+  if (!self.statistics.history.empty()) {
+    self.firstThreshold = self.statistics.history.back().threshold;
+  }
+  self.statistics.history.clear();
+  self.statistics.stoppedBy.clear();
+  self.Count();
+  return true;
 }
 
 RadiositySolution HierarchicalRadiosity::Solution() const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "Clustering/Core/FaceClustering.h"
 #include "Common/Core/Progress.h"
@@ -27,6 +28,9 @@ struct HierarchicalRadiosityOptions {
   double error = 0.05;  ///< wanted relative RMS error of irradiance, (0, 1]
   double timeLimit =
       0;  ///< seconds of solving after which the run ends at the next iteration border; 0: none
+  /// MB (1e6 bytes) of the process, [0, inf): links are refined and light is gathered as long as
+  /// that and the delivery stay below, the first iteration in any case; 0: no limit.
+  double memoryLimit = 0;
   int iterations = 0;  ///< iterations after which the run ends; 0: as many as the error asks for
   /// Points at which a path trace verifies the delivered error, which is improved until it is the
   /// wanted one, [0, inf); 0: what usually gives that error is taken for it.
@@ -39,6 +43,11 @@ struct HierarchicalRadiosityOptions {
   bool finalGather = true;
   Schedule schedule = Schedule::Scheduled;
   OracleKind oracle = OracleKind::Doubt;  ///< what judges links
+  /// File that gets the state at the end of every iteration of links, to go on from; empty: none.
+  std::string saveState;
+  /// File that a run of the same scene saved and that this one goes on from; empty: from the
+  /// beginning.
+  std::string resume;
   LeafMeshOptions leafMesh;
 };
 
@@ -47,7 +56,7 @@ struct HierarchicalRadiosityOptions {
 class HierarchicalRadiosity {
  public:
   /// `scene` is in the order that ClusterFaces left it in; both are kept by reference.
-  /// Throws Error for an error request outside (0, 1].
+  /// Throws Error for an error request outside (0, 1], and as LoadSolverState does.
   HierarchicalRadiosity(const Scene& scene, const ClusterTree& tree,
                         const HierarchicalRadiosityOptions& options = {});
   ~HierarchicalRadiosity();
@@ -59,8 +68,18 @@ class HierarchicalRadiosity {
   /// the points of the mesh, in iterations of cuts, verified after the last of them and improved
   /// until the wanted error is met or a stop comes before. Without final gather links are verified
   /// and refined on instead. A cancelled run keeps the state of its last whole iteration;
-  /// `Statistics().stoppedBy` says why it ended.
+  /// `Statistics().stoppedBy` says why it ended. A resumed run comes to the same bits as one that
+  /// was never stopped; its observer hears of the last iteration of the state first. Throws Error
+  /// where the state cannot be saved.
   void Run(const ProgressCallback& progress = {}, const IterationObserver& observer = {});
+
+  /// Lights the scene anew after a change of its faces' reflectance, emittance or sides that emit:
+  /// elements and links with their visibility stay, light is exchanged until it settles, and no
+  /// ray is cast unless other faces emit than before. Solution() then shows it; Run() goes on from
+  /// there, first with an iteration that refines the links as far as they were before.
+  /// Geometry, clusters and lights have to be what they were. False where light reaches other
+  /// sides, or other surfaces emit without reflecting: then the solver has to be made anew.
+  bool Relight();
 
   /// The displayable solution as it stands: that of the final gather once there is one, before it
   /// the reconstruction of 4.5.5 on the refined mesh.

@@ -308,6 +308,7 @@ LeafMesh::LeafMesh(const TriangleMesh& mesh, const LeafMeshOptions& options)
 
 LeafMesh::~LeafMesh() = default;
 
+const LeafMeshOptions& LeafMesh::Options() const { return implementation_->options; }
 int32_t LeafMesh::FacePatch(int32_t face, Side side) {
   return implementation_->FacePatch(face, side);
 }

@@ -61,6 +61,8 @@ class LeafMesh {
   LeafMesh(const TriangleMesh& mesh, const LeafMeshOptions& options = {});
   ~LeafMesh();
 
+  const LeafMeshOptions& Options() const;
+
   /// The patch that is the whole of `face` seen from `side`; made at the first call.
   int32_t FacePatch(int32_t face, Side side);
   /// The same where it has been made; -1 else.

@@ -193,8 +193,9 @@ TakenLinks TakeLinksInError(const Judge& judge, LinkNetwork* network) {
 }
 
 /// The network as it was before its links were taken; elements made since stay, without links of
-/// their own.
-void PutBack(const TakenLinks& taken, LinkNetwork* network) {
+/// their own and with their part of what their parents receive.
+void PutBack(const TakenLinks& taken, const ElementHierarchy& hierarchy, ElementLight* light,
+             LinkNetwork* network) {
   for (size_t receiver = 0; receiver < network->incoming.size(); ++receiver) {
     std::vector<Link>& links = network->incoming[receiver];
     if (receiver >= taken.byReceiver.size()) {
@@ -203,6 +204,13 @@ void PutBack(const TakenLinks& taken, LinkNetwork* network) {
     }
     links.resize(taken.keptCount[receiver]);
     links.insert(links.end(), taken.byReceiver[receiver].begin(), taken.byReceiver[receiver].end());
+  }
+  for (size_t index = taken.byReceiver.size(); index < network->incoming.size(); ++index) {
+    const Element& element = hierarchy[int32_t(index)];
+    const size_t parent = size_t(element.parent);
+    light->irradiance[index] =
+        PushIrradiance(hierarchy[element.parent], light->irradiance[parent], element);
+    light->rowScale[index] = light->rowScale[parent];
   }
 }
 
@@ -226,6 +234,20 @@ std::vector<int32_t> ElementsToSplit(const std::vector<Pair>& pairs,
   std::sort(elements.begin(), elements.end());
   elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
   return elements;
+}
+
+/// Pairs that the verdicts keep or put in the place of others.
+int64_t PairsToCome(const std::vector<Pair>& pairs, const std::vector<Judgement>& judgements,
+                    const ElementHierarchy& hierarchy) {
+  int64_t count = 0;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const int64_t children = std::max(2, hierarchy[pairs[i].receiver].childCount);
+    const Verdict verdict = judgements[i].verdict;
+    if (verdict == Verdict::SplitSelf) count += children * children;
+    if (verdict == Verdict::SplitSource || verdict == Verdict::SplitReceiver) count += 2;
+    if (verdict == Verdict::Keep || verdict == Verdict::KeepAtFloor) ++count;
+  }
+  return count;
 }
 
 /// The pairs that take the place of one: with the children of the end that was split.
@@ -292,7 +314,7 @@ void MakeInitialLinks(const ElementHierarchy& hierarchy, LinkNetwork* network) {
 
 bool RefineLinks(double threshold, const RefinementOracle& oracle, const RayScene& rayScene,
                  ElementHierarchy* hierarchy, ElementLight* light, LinkNetwork* network,
-                 const ProgressCallback& progress) {
+                 const ProgressCallback& progress, const RoomCallback& hasRoom) {
   const Judge judge(threshold, oracle, *hierarchy, *light, rayScene);
   network->linksAtFloor = 0;
   const TakenLinks taken = TakeLinksInError(judge, network);
@@ -300,15 +322,21 @@ bool RefineLinks(double threshold, const RefinementOracle& oracle, const RayScen
   std::vector<Judgement> judgements;
   for (int round = 0; !pairs.empty(); ++round) {
     if (!Report(progress, round / (round + 8.0), "refining links")) {
-      PutBack(taken, network);
+      PutBack(taken, *hierarchy, light, network);
       return false;
     }
 
-    // Judge all pairs; what is asked to be split then gets its children.
+    // Judge all pairs; what is asked to be split then gets its children, where there is room.
     judgements.assign(pairs.size(), {});
     ParallelForEach(int64_t(pairs.size()), 32,
                     [&](int64_t i) { judgements[size_t(i)] = judge(pairs[size_t(i)]); });
-    hierarchy->Split(ElementsToSplit(pairs, judgements));
+    const std::vector<int32_t> split = ElementsToSplit(pairs, judgements);
+    if (hasRoom &&
+        !hasRoom(2 * int64_t(split.size()), PairsToCome(pairs, judgements, *hierarchy))) {
+      PutBack(taken, *hierarchy, light, network);
+      return false;
+    }
+    hierarchy->Split(split);
     light->Grow(*hierarchy);
     network->incoming.resize(size_t(hierarchy->Size()));
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "Common/Core/Progress.h"
@@ -39,12 +40,17 @@ struct LinkNetwork {
 /// The first links: the scene with itself, black emitters and lights to the scene (4.5.1).
 void MakeInitialLinks(const ElementHierarchy& hierarchy, LinkNetwork* network);
 
+/// Called before elements are split with how many elements and links are about to come; false
+/// where there is no room for them. May be empty.
+using RoomCallback = std::function<bool(int64_t elements, int64_t links)>;
+
 /// Refines every link whose error, by `oracle`, exceeds `threshold` (W), splitting the end that
 /// contributes most to it, until none does or nothing can be split. Returns false, with the links
-/// as they were, where `progress` asked to stop.
+/// as they were, where `progress` asked to stop or `hasRoom` said that there is no room; elements
+/// made until then have their part of what their parents receive.
 bool RefineLinks(double threshold, const RefinementOracle& oracle, const RayScene& rayScene,
                  ElementHierarchy* hierarchy, ElementLight* light, LinkNetwork* network,
-                 const ProgressCallback& progress = {});
+                 const ProgressCallback& progress = {}, const RoomCallback& hasRoom = {});
 
 /// Gives the children of each of `parents` links of their own in place of those of the parent's
 /// links that bring more than `part` of its light: for children of which some are hidden and some

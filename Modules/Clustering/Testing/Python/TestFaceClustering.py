@@ -115,6 +115,18 @@ assert clustering.GetNumberOfSurfaces() == ids.max() + 1 >= 2
 for surface in np.unique(ids):
     assert len(np.unique(parts[ids == surface])) == 1
 
+# Other colours, or another cut, in the order of the tree that there is.
+seconds = clustering.GetClusteringSeconds()
+paint = numpy_to_vtk(np.full((sphere.GetNumberOfCells(), 3), 0.25, np.float32), deep=1)
+paint.SetName("Reflectance")
+sphere.GetCellData().AddArray(paint)
+sphere.Modified()
+clustering.SetLevel(1)
+clustering.Update()
+assert clustering.GetClusteringSeconds() == seconds
+assert (cells(clustering.GetOutput(), "Reflectance") == 0.25).all()
+assert np.array_equal(cells(clustering.GetOutput(), "SurfaceId"), ids)
+
 # A wrong option is told once and leaves no tree.
 errors = []
 clustering.AddObserver("ErrorEvent", lambda *_: errors.append(1))

@@ -61,8 +61,9 @@ def light_at_points(method):
 # Options, defaults, and the base class that carries the contract.
 method = lambert.vtkHierarchicalRadiosity()
 assert isinstance(method, lambert.vtkRadiosityAlgorithm)
-for name, default, other in (("Error", 0.05, 0.2), ("TimeLimit", 0.0, 60.0), ("Iterations", 0, 7),
+for name, default, other in (("Error", 0.05, 0.2), ("TimeLimit", 0.0, 60.0), ("MemoryLimit", 0.0, 500.0), ("Iterations", 0, 7),
                              ("VerificationPoints", 2000, 0), ("FinalGather", True, False), ("NumberOfThreads", 0, 2),
+                             ("StateFileName", "", "a.state"), ("ResumeFileName", "", "b.state"),
                              ("Refinement", method.RECTANGLE, method.QUADTREE), ("SnapTolerance", np.float32(0.15), 0.25),
                              ("Oracle", method.DOUBT, method.BFA), ("Schedule", method.SCHEDULED, method.INTERLEAVED)):
     assert getattr(method, "Get" + name)() == default, name
@@ -188,6 +189,67 @@ for oracle, schedule in ((method.GEOMETRIC, 0), (method.BFA, 0), (method.VISIBIL
     other_mean, other_links = by_links_alone(oracle, schedule)
     assert abs(other_mean - mean) < 0.05 * mean and other_links != links, (oracle, schedule, mean, other_mean)
 
+# A state that one filter saved another goes on from, to the same light; of another input it is an error.
+state = os.path.join(os.environ["LAMBERT_TEMPORARY_DIR"], "TestHierarchicalRadiosity.state")
+stopped = lambert.vtkHierarchicalRadiosity()
+stopped.SetInputData(scene)
+stopped.SetIterations(2)
+stopped.SetStateFileName(state)
+stopped.Update()
+resumed = lambert.vtkHierarchicalRadiosity()
+resumed.SetInputData(scene)
+resumed.SetIterations(3)
+resumed.SetResumeFileName(state)
+resumed.Update()
+assert resumed.GetOutputDataObject(1).GetNumberOfRows() == 3
+assert np.array_equal(array(resumed.GetOutput(), "Irradiance"), array(unwatched.GetOutput(), "Irradiance"))
+errors = []
+resumed.AddObserver("ErrorEvent", lambda *_: errors.append(1))
+resumed.SetSky(1, 1, 1)
+resumed.Update()
+assert errors
+
+# Another reflectance is lit over the links that there are: shown before an iteration, and in the end as a new filter
+# has it, each within the error that was asked for.
+def painted(reflectance):
+    data = vtkPolyData()
+    data.DeepCopy(scene)
+    array_ = numpy_to_vtk(np.full((scene.GetNumberOfCells(), 3), reflectance, np.float32), deep=1)
+    array_.SetName("Reflectance")
+    data.GetCellData().AddArray(array_)
+    return data
+
+
+def mean_light(method):
+    return array(method.GetOutputDataObject(2), "Irradiance").mean()
+
+
+relit, shown = lambert.vtkHierarchicalRadiosity(), []
+relit.SetInputData(painted(0.3))
+relit.SetError(0.3)
+relit.Update()
+first = mean_light(relit)
+relit.AddObserver("UpdateDataEvent", lambda caller, _: shown.append(array(caller.GetOutputDataObject(0), "Irradiance").max()))
+relit.SetInputData(painted(0.6))
+relit.Update()
+fresh = lambert.vtkHierarchicalRadiosity()
+fresh.SetInputData(painted(0.6))
+fresh.SetError(0.3)
+fresh.Update()
+assert mean_light(relit) > 1.1 * first and abs(mean_light(relit) / mean_light(fresh) - 1) < 0.3
+assert len(shown) == relit.GetOutputDataObject(1).GetNumberOfRows() + 1
+assert relit.GetOutputDataObject(1).GetNumberOfRows() < fresh.GetOutputDataObject(1).GetNumberOfRows()
+
+# Other lights, or links that were not kept: all is made anew, to the bits of a new filter.
+for method in (relit, fresh):
+    method.SetIterations(2)
+    method.Update()
+for change in (lambda: relit.SetSky(1, 1, 1), lambda: relit.SetSky(0, 0, 0), relit.KeepLinksOff,
+               lambda: relit.SetInputData(painted(0.3)), lambda: relit.SetInputData(painted(0.6))):
+    change()
+    relit.Update()
+assert np.array_equal(array(relit.GetOutputDataObject(2), "Irradiance"), array(fresh.GetOutputDataObject(2), "Irradiance"))
+
 # An abort after the first iteration keeps that iteration.
 aborted = lambert.vtkHierarchicalRadiosity()
 aborted.SetInputData(scene)
@@ -259,7 +321,8 @@ outside.Update()
 assert np.allclose(array(outside.GetOutputDataObject(2), "Irradiance"), np.pi * np.array([1, 2, 3]), rtol=0.02)
 
 # Options without meaning are errors, not endless runs.
-for option, value in (("Error", -1), ("Error", 0), ("Error", 2), ("VerificationPoints", -1), ("SnapTolerance", 0.5), ("Sky", (-1, 0, 0))):
+for option, value in (("Error", -1), ("Error", 0), ("Error", 2), ("VerificationPoints", -1), ("MemoryLimit", -1),
+                      ("SnapTolerance", 0.5), ("Sky", (-1, 0, 0))):
     broken = lambert.vtkHierarchicalRadiosity()
     getattr(broken, "Set" + option)(value)
     errors = []

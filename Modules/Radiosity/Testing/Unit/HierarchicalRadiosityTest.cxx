@@ -188,6 +188,17 @@ TEST(HierarchicalRadiosity, LinksAloneAreRefinedOnWhereVerificationFails) {
   EXPECT_EQ(unverified.statistics.stoppedBy, "error");
 }
 
+// What gathers finds its place among four parts as among two: read at wrong ones, half a shadow is
+// lit, and the request was never met (0.045).
+TEST(HierarchicalRadiosity, RegularPatchesAreGatheredFromToo) {
+  HierarchicalRadiosityOptions options;
+  options.error = 0.03;
+  options.leafMesh.refinement = PatchRefinement::Quadtree;
+  const Solved solved = Solve(testing::DataScene("ShadowedSlivers"), options);
+  EXPECT_EQ(solved.statistics.stoppedBy, "error");
+  EXPECT_LE(MeasureSolutionError(solved.scene, solved.solution).Counting(), 1.1 * options.error);
+}
+
 TEST(HierarchicalRadiosity, APointLightOverAFloor) {
   Scene scene;
   AddQuad(&scene.mesh, {-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, Spectrum(0.5f));

@@ -1,0 +1,52 @@
+#include "Radiosity/Core/Verification.h"
+
+#include "Common/Core/Random.h"
+#include "Radiosity/Core/HierarchicalRadiosity.h"
+#include "Reference/Core/SolutionError.h"
+
+namespace lambert {
+
+namespace {
+
+/// What the error must fall to for another attempt to be worth it.
+constexpr double kLeastGain = 0.9;
+/// An error counts as met a little below the request: the points that verify it are a sample.
+constexpr double kVerifiedBelow = 0.95;
+/// Paths a point.
+constexpr int kVerificationSamples = 256;
+/// Up to so many times as many paths where those leave it open whether the request is met.
+constexpr int kVerificationGrowth = 16;
+
+}  // namespace
+
+double Verification::Measure(const RadiositySolution& solution) {
+  // Another set of points each time, or the second would be chosen by the first.
+  SolutionErrorOptions verification;
+  verification.points = options_.verificationPoints;
+  verification.samples = kVerificationSamples;
+  verification.seed = HashBits(0x76657269u, uint64_t(attempts_) + 1);
+  verification.growth = options_.timeLimit > 0 ? 1 : kVerificationGrowth;
+  verification.enough = kVerifiedBelow * options_.error;
+  this->Note(MeasureSolutionError(scene_, solution, verification).Counting());
+  return error_;
+}
+
+void Verification::Recall(const std::vector<IterationRecord>& history) {
+  for (const IterationRecord& record : history) {
+    if (record.error >= 0) this->Note(record.error);
+  }
+}
+
+std::string Verification::Verdict() const {
+  if (error_ <= kVerifiedBelow * options_.error) return "error";
+  return idle_ >= patience_ ? "floor" : "";
+}
+
+void Verification::Note(double error) {
+  error_ = error;
+  const bool isBetter = ++attempts_ == 1 || error_ <= kLeastGain * best_;
+  if (isBetter) best_ = error_;
+  idle_ = isBetter ? 0 : idle_ + 1;
+}
+
+}  // namespace lambert

@@ -1,0 +1,40 @@
+// Whether what is delivered is what was asked for: measured against a path trace time and again,
+// until it is or gets no better.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "Scene/Core/RadiositySolution.h"
+#include "Scene/Core/Scene.h"
+
+namespace lambert {
+
+struct HierarchicalRadiosityOptions;
+
+class Verification {
+ public:
+  /// Gives up after `patience` attempts in a row that gain too little. All by reference.
+  Verification(const Scene& scene, const HierarchicalRadiosityOptions& options, int patience)
+      : scene_(scene), options_(options), patience_(patience) {}
+
+  /// Error of `solution`, the one that counts, at points of its own for every attempt.
+  double Measure(const RadiositySolution& solution);
+  /// Counts the attempts that a history tells of as made.
+  void Recall(const std::vector<IterationRecord>& history);
+
+  double Error() const { return error_; }
+  /// Why to stop: "error" or "floor"; empty: go on. What is not verified counts as met.
+  std::string Verdict() const;
+
+ private:
+  void Note(double error);
+
+  const Scene& scene_;
+  const HierarchicalRadiosityOptions& options_;
+  const int patience_;
+  int attempts_ = 0, idle_ = 0;
+  double error_ = -1, best_ = 0;
+};
+
+}  // namespace lambert

@@ -1,0 +1,41 @@
+// When attempts to meet an error are given up.
+#include "Radiosity/Core/Verification.h"
+
+#include <gtest/gtest.h>
+
+#include "Radiosity/Core/HierarchicalRadiosity.h"
+
+namespace lambert {
+namespace {
+
+/// What is said after attempts that found `errors`, at a request of 0.1 and a patience of two.
+std::string VerdictOf(const std::vector<double>& errors) {
+  const Scene scene;
+  HierarchicalRadiosityOptions options;
+  options.error = 0.1;
+  std::vector<IterationRecord> history;
+  for (const double error : errors) {
+    history.emplace_back();  // An iteration that was not verified does not count.
+    history.emplace_back().error = error;
+  }
+  Verification verification(scene, options, 2);
+  verification.Recall(history);
+  return verification.Verdict();
+}
+
+TEST(VerificationTest, TakesWhatIsNotVerifiedForMet) { EXPECT_EQ(VerdictOf({}), "error"); }
+
+TEST(VerificationTest, IsMetALittleBelowTheRequest) {
+  EXPECT_EQ(VerdictOf({0.2, 0.094}), "error");
+  EXPECT_EQ(VerdictOf({0.2, 0.099}), "");
+}
+
+TEST(VerificationTest, GivesUpAfterAttemptsThatGainTooLittle) {
+  EXPECT_EQ(VerdictOf({0.5, 0.49}), "");
+  EXPECT_EQ(VerdictOf({0.5, 0.49, 0.48}), "floor");
+  EXPECT_EQ(VerdictOf({0.5, 0.49, 0.3, 0.29}), "");  // One that gains begins anew.
+  EXPECT_EQ(VerdictOf({0.5, 0.49, 0.3, 0.29, 0.31}), "floor");
+}
+
+}  // namespace
+}  // namespace lambert
