@@ -58,4 +58,19 @@ inline Vec3f PlaceOnTriangle(const Vec3f& p0, const Vec3f& p1, const Vec3f& p2, 
   return p0 + (p1 - p0) * b.x + (p2 - p0) * b.y;
 }
 
+/// A place on a convex polygon, uniform in area where `u` and `v` are uniform in [0, 1].
+inline Vec3f PlaceOnPolygon(const Vec3f* corners, int count, float u, float v) {
+  const auto areaOf = [&](int i) {
+    return Length(Cross(corners[i - 1] - corners[0], corners[i] - corners[0]));
+  };
+  float total = 0;
+  for (int i = 2; i < count; ++i) total += areaOf(i);
+  int triangle = 2;
+  float left = u * total, area = areaOf(2);
+  for (; triangle + 1 < count && left >= area; area = areaOf(++triangle)) left -= area;
+  u = area > 0 ? std::min(1.f, left / area) : 0.5f;
+  return PlaceOnTriangle(corners[0], corners[triangle - 1], corners[triangle],
+                         UniformTriangle(u, v));
+}
+
 }  // namespace lambert

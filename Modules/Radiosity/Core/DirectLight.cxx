@@ -13,19 +13,19 @@ namespace {
 
 /// A group of emitters farther away than this many of its radii is taken as one.
 constexpr float kSmallBeyond = 12;
-/// A face nearer than this many of its longest edges is sampled by solid angle, else by area.
+/// A polygon nearer than this many of its sizes is sampled by solid angle, else by area.
 constexpr float kLargeWithin = 1.5f;
-/// The rays to a face choose by what they give from at least so many places together, where it is
-/// nearer than this many of its longest edges; farther away all places on it give alike.
+/// The rays to a polygon choose by what they give from at least so many places together, where it
+/// is nearer than this many of its sizes; farther away all places on it give alike.
 constexpr int kLeastPlaces = 8;
 constexpr float kAlikeBeyond = 5;
-/// A face that looks smaller than this is sampled by area, sr.
+/// A polygon that looks smaller than this is sampled by area, sr.
 constexpr double kLeastSolidAngle = 1e-4;
 /// Where all of these lie below the horizon, that many others are tried.
 constexpr int kMorePlaces = 8;
 /// Light of which more than this part comes from groups scatters without being blocked.
 constexpr float kMostGrouped = 0.2f;
-/// Fewer rays than this pick a face each, down from the root of all emitters.
+/// Fewer rays than this pick a polygon each, down from the root of all emitters.
 constexpr int kRaysToOpen = 4;
 
 /// An angle in [0, pi].
@@ -56,28 +56,17 @@ bool IsAbove(const GatherPoint& at, const Vec3f& direction) {
 
 DirectLight::DirectLight(const Scene& scene, const RayScene& rayScene)
     : rayScene_(rayScene), lights_(scene.lights) {
-  const TriangleMesh& mesh = scene.mesh;
-  for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
-    for (const Side side : {kFront, kBack}) {
-      if (mesh.Emits(face, side)) this->Add(face, side, mesh);
-    }
+  for (const EmittingPolygon& polygon : FindEmittingPolygons(scene.mesh)) {
+    emitters_.emplace_back(polygon);
   }
   if (!emitters_.empty()) Build(0, int32_t(emitters_.size()));
 }
 
-void DirectLight::Add(int64_t face, Side side, const TriangleMesh& mesh) {
-  Emitter emitter;
-  Vec3f* c = emitter.corners;
-  for (int i = 0; i < 3; ++i) c[i] = mesh.Corner(face, side == kFront ? i : 2 - i);
-  const Vec3f doubleArea = Cross(c[1] - c[0], c[2] - c[0]);
-  emitter.emittance = mesh.emittance[size_t(face)];
-  emitter.normal = Normalize(doubleArea);
-  emitter.center = (c[0] + c[1] + c[2]) / 3.f;
-  emitter.area = 0.5f * Length(doubleArea);
-  emitter.longest = std::max({Length(c[1] - c[0]), Length(c[2] - c[1]), Length(c[0] - c[2])});
-  emitter.power = emitter.area * emitter.emittance.Mean();
-  if (emitter.power > 0) emitters_.push_back(emitter);
-}
+DirectLight::Emitter::Emitter(const EmittingPolygon& polygon_)
+    : polygon(polygon_),
+      center(polygon_.Center()),
+      size(polygon_.LargestSize()),
+      power(polygon_.area * polygon_.emittance.Mean()) {}
 
 int32_t DirectLight::Build(int32_t begin, int32_t end) {
   // Bounds.
@@ -87,15 +76,16 @@ int32_t DirectLight::Build(int32_t begin, int32_t end) {
   node.end = end;
   Box3f box;
   for (int32_t i = begin; i < end; ++i) {
-    for (const Vec3f& corner : emitters_[size_t(i)].corners) box.Include(corner);
+    const EmittingPolygon& polygon = emitters_[size_t(i)].polygon;
+    for (int c = 0; c < polygon.count; ++c) box.Include(polygon.corners[size_t(c)]);
     node.power += emitters_[size_t(i)].power;
   }
   Vec3f normals;
-  for (int32_t i = begin; i < end; ++i) normals += emitters_[size_t(i)].normal;
+  for (int32_t i = begin; i < end; ++i) normals += emitters_[size_t(i)].polygon.normal;
   node.axis = Normalize(normals);
   node.cosCone = node.axis == Vec3f() ? -1.f : 1.f;
   for (int32_t i = begin; i < end; ++i) {
-    node.cosCone = std::min(node.cosCone, Dot(node.axis, emitters_[size_t(i)].normal));
+    node.cosCone = std::min(node.cosCone, Dot(node.axis, emitters_[size_t(i)].polygon.normal));
   }
   node.cosCone = std::max(-1.f, node.cosCone);
   node.sinCone = std::sqrt(1 - node.cosCone * node.cosCone);
@@ -121,16 +111,16 @@ int32_t DirectLight::Build(int32_t begin, int32_t end) {
   return index;
 }
 
-// What a face gives is known in closed form; of a group, what it would give at most as far away as
-// its middle.
+// What a polygon gives is known in closed form; of a group, what it would give at most as far away
+// as its middle.
 DirectLight::Source DirectLight::Weigh(int32_t index, const GatherPoint& at) const {
   const Node& node = nodes_[size_t(index)];
   Source source{index, {}, 0};
   if (node.second < 0) {
-    const Emitter& emitter = emitters_[size_t(node.begin)];
-    const Vec3d vector =
-        PolygonIrradianceAbove(emitter.corners, 3, at.position, at.geometricNormal);
-    source.exact = emitter.emittance * std::max(0.f, float(Dot(Vec3d(at.normal), vector)));
+    const EmittingPolygon& polygon = emitters_[size_t(node.begin)].polygon;
+    const Vec3d vector = PolygonIrradianceAbove(polygon.corners.data(), polygon.count, at.position,
+                                                at.geometricNormal);
+    source.exact = polygon.emittance * std::max(0.f, float(Dot(Vec3d(at.normal), vector)));
     source.weight = source.exact.Mean();
     return source;
   }
@@ -153,10 +143,10 @@ DirectLight::Source DirectLight::Weigh(int32_t index, const GatherPoint& at) con
   return source;
 }
 
-// Down a group to one of its faces, by what each half may give; `u` in [0,1) is used up and
+// Down a group to one of its polygons, by what each half may give; `u` in [0,1) is used up and
 // stretched again.
-DirectLight::Source DirectLight::PickFace(const Source& group, const GatherPoint& at, float* u,
-                                          float* chance) const {
+DirectLight::Source DirectLight::PickPolygon(const Source& group, const GatherPoint& at, float* u,
+                                             float* chance) const {
   Source source = group;
   *chance = 1;
   while (nodes_[size_t(source.node)].second >= 0) {
@@ -202,50 +192,63 @@ int DirectLight::Sources(const GatherPoint& at, Source* sources) const {
   return count;
 }
 
-DirectLight::FaceView::FaceView(const Emitter& emitter_, const GatherPoint& at_)
-    : emitter(emitter_), at(at_) {
+DirectLight::PolygonView::PolygonView(const Emitter& emitter, const GatherPoint& at_)
+    : polygon(emitter.polygon), at(at_) {
   const float squared = LengthSquared(emitter.center - at.position);
-  areAlike = squared > Square(kAlikeBeyond * emitter.longest);
-  if (squared > Square(kLargeWithin * emitter.longest)) return;
-  Vec3d toward[3];
-  for (int c = 0; c < 3; ++c) {
-    toward[c] = Normalize(Vec3d(emitter.corners[c]) - Vec3d(at.position));
+  areAlike = squared > Square(kAlikeBeyond * emitter.size);
+  if (squared > Square(kLargeWithin * emitter.size)) return;
+  std::array<Vec3d, EmittingPolygon::kMostCorners> toward;
+  for (size_t c = 0; c < size_t(polygon.count); ++c) {
+    toward[c] = Normalize(Vec3d(polygon.corners[c]) - Vec3d(at.position));
   }
-  triangle = SphericalTriangle(toward[0], toward[1], toward[2]);
-  if (triangle.SolidAngle() > kLeastSolidAngle) solidAngle = float(triangle.SolidAngle());
+  double angle = 0;
+  for (size_t c = 2; c < size_t(polygon.count); ++c) {
+    fan[c - 2] = SphericalTriangle(toward[0], toward[c - 1], toward[c]);
+    angle += fan[c - 2].SolidAngle();
+  }
+  if (angle > kLeastSolidAngle) solidAngle = float(angle);
 }
 
-// A place on a face: uniform in solid angle where it looks large, else in area. `value` is what
-// such places give, but for a factor that is the same for all of the face.
-bool DirectLight::FaceView::Place(const Vec2f& uv, Vec3f* target, float* value) const {
+// Uniform in solid angle, of `u` and `v` uniform in [0, 1).
+Vec3d DirectLight::PolygonView::Direction(double u, double v) const {
+  double left = u * double(solidAngle);
+  size_t triangle = 0;
+  while (int(triangle) + 3 < polygon.count && left >= fan[triangle].SolidAngle()) {
+    left -= fan[triangle++].SolidAngle();
+  }
+  return fan[triangle].Sample(std::min(1.0, left / fan[triangle].SolidAngle()), v);
+}
+
+// A place on a polygon: uniform in solid angle where it looks large, else in area. `value` is what
+// such places give, but for a factor that is the same for all of the polygon.
+bool DirectLight::PolygonView::Place(const Vec2f& uv, Vec3f* target, float* value) const {
   float density = 0;  // Over solid angle.
   if (solidAngle > 0) {
-    const Vec3d d = triangle.Sample(double(uv.x), double(uv.y));
-    const Vec3d normal(emitter.normal);
+    const Vec3d d = this->Direction(double(uv.x), double(uv.y));
+    const Vec3d normal(polygon.normal);
     const double slope = Dot(d, normal);
-    const double height = Dot(Vec3d(emitter.corners[0]) - Vec3d(at.position), normal);
+    const double height = Dot(Vec3d(polygon.corners[0]) - Vec3d(at.position), normal);
     if (!(slope * height > 0)) return false;
     *target = Vec3f(Vec3d(at.position) + d * (height / slope));
     density = 1 / solidAngle;
   } else {
-    *target = PlaceOnTriangle(emitter.corners[0], emitter.corners[1], emitter.corners[2],
-                              UniformTriangle(uv.x, uv.y));
+    *target = PlaceOnPolygon(polygon.corners.data(), polygon.count, uv.x, uv.y);
     const Vec3f offset = *target - at.position;
     const float squared = LengthSquared(offset);
-    const float cosine = -Dot(offset, emitter.normal) / std::sqrt(std::max(squared, 1e-30f));
+    const float cosine = -Dot(offset, polygon.normal) / std::sqrt(std::max(squared, 1e-30f));
     if (!(cosine > 0)) return false;
-    density = squared / (cosine * emitter.area);
+    density = squared / (cosine * polygon.area);
   }
   const Vec3f direction = Normalize(*target - at.position);
   *value = Dot(at.normal, direction) / density;
   return IsAbove(at, direction);
 }
 
-// One of some places on a face, by what each gives: the fewer the rays that share the face out, the
+// One of some places on a polygon, by what each gives: the fewer the rays that share it out, the
 // more places each chooses from, or what little they see would count as if all gave alike. `value`
 // is what they give in the mean.
-bool DirectLight::FaceView::PickPlace(const Vec2f& uv, int rays, Random* random, Vec3f* target,
-                                      float* value) const {
+bool DirectLight::PolygonView::PickPlace(const Vec2f& uv, int rays, Random* random, Vec3f* target,
+                                         float* value) const {
   const int places = areAlike ? 1 : std::max(1, kLeastPlaces / rays);
   float sum = 0;
   for (int i = 0; i < places || (!(sum > 0) && i < places + kMorePlaces); ++i) {
@@ -281,29 +284,30 @@ Spectrum DirectLight::CastRays(const GatherPoint& at, const Source* sources, int
     const int own = ray - first;
     if (own == 0) continue;
 
-    // What of them is clear; on a face each place counts by what it gives.
-    const auto viewOf = [&](const Source& face) {
-      return FaceView(emitters_[size_t(nodes_[size_t(face.node)].begin)], at);
+    // What of them is clear; on a polygon each place counts by what it gives.
+    const auto viewOf = [&](const Source& one) {
+      return PolygonView(emitters_[size_t(nodes_[size_t(one.node)].begin)], at);
     };
-    const bool isFace = nodes_[size_t(source.node)].second < 0;
-    std::optional<FaceView> view;
-    if (isFace) view.emplace(viewOf(source));
+    const bool isPolygon = nodes_[size_t(source.node)].second < 0;
+    std::optional<PolygonView> view;
+    if (isPolygon) view.emplace(viewOf(source));
     float all = 0, open = 0;
     for (int k = 0; k < own; ++k) {
       float u = (float(k) + random.Uniform()) / float(own), chance = 1, value = 0;
-      const Source face = isFace ? source : this->PickFace(source, at, &u, &chance);
-      if (!(face.weight > 0)) continue;
-      if (!isFace) view.emplace(viewOf(face));
+      const Source picked = isPolygon ? source : this->PickPolygon(source, at, &u, &chance);
+      if (!(picked.weight > 0)) continue;
+      if (!isPolygon) view.emplace(viewOf(picked));
       const float v = RadicalInverse(uint32_t(first + k), shift);
       Vec3f target;
-      if (!view->PickPlace({u, v}, isFace ? own : 1, &random, &target, &value)) continue;
+      if (!view->PickPlace({u, v}, isPolygon ? own : 1, &random, &target, &value)) continue;
       const bool isClear = !rayScene_.Occluded(at.position, target);
       *clear += isClear;
       all += value;
       if (isClear) open += value;
-      if (isClear && !isFace) sum += face.exact * (part / (source.weight * chance));
+      if (isClear && !isPolygon) sum += picked.exact * (part / (source.weight * chance));
     }
-    if (isFace && all > 0) sum += source.exact * (part * float(own) / source.weight * open / all);
+    if (isPolygon && all > 0)
+      sum += source.exact * (part * float(own) / source.weight * open / all);
   }
   return sum;
 }

@@ -1,12 +1,14 @@
-// Irradiance straight from the light sources at a point: closed form over the emitting faces, rays
-// in proportion to what they give.
+// Irradiance straight from the light sources at a point: closed form over the emitting polygons,
+// rays in proportion to what they give.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "Common/Core/Random.h"
 #include "Common/Core/SphericalTriangle.h"
+#include "Radiosity/Core/EmittingPolygons.h"
 #include "Scene/Core/LightSource.h"
 #include "Scene/Core/Scene.h"
 #include "Visibility/Core/RayScene.h"
@@ -32,8 +34,8 @@ struct DirectSample {
       false;  ///< much of it comes from groups of emitters, of which rays picked some
 };
 
-/// All emitting faces and the samples of lights without geometry; over a tree of the faces: from a
-/// point, groups of faces that look small are taken as one.
+/// All emitting polygons and the samples of lights without geometry; over a tree of the polygons:
+/// from a point, groups of them that look small are taken as one.
 class DirectLight {
  public:
   /// Both by reference.
@@ -41,33 +43,32 @@ class DirectLight {
 
   /// The lights without geometry.
   const LightSources& Lights() const { return lights_; }
-  /// Irradiance at a point, W/m2, with `count` rays to all emitting faces together, [1, inf), and
-  /// at most as many to each light; where nothing is in the way of a face its light is exact with
+  /// Irradiance at a point, W/m2, with `count` rays to all emitting polygons together, [1, inf),
+  /// and at most as many to each light; where nothing is in the way of one its light is exact with
   /// any number. It depends on the point, the count and the seed alone. More rays that are cast
   /// only where these find something bring too little light to places that little of it reaches.
   /// Adds the rays cast to `rays`.
   DirectSample Sample(const GatherPoint& at, int count, uint64_t seed, int64_t* rays) const;
 
  private:
-  /// One side of an emitting face.
   struct Emitter {
-    Vec3f corners[3];    ///< counter-clockwise seen from the emitting side
-    Spectrum emittance;  ///< W/m2
-    Vec3f normal;
+    EmittingPolygon polygon;
     Vec3f center;
-    float area = 0;
-    float longest = 0;  ///< edge, m
-    float power = 0;    ///< W, mean of the bands
+    float size = 0;   ///< largest, m
+    float power = 0;  ///< W, mean of the bands
+
+    explicit Emitter(const EmittingPolygon& polygon);
   };
-  /// A face as seen from a point.
-  struct FaceView {
-    const Emitter& emitter;
+  /// A polygon as seen from a point.
+  struct PolygonView {
+    const EmittingPolygon& polygon;
     const GatherPoint& at;
     bool areAlike = false;  ///< all places on it give alike
     float solidAngle = 0;   ///< sr; 0 where places are chosen by area
-    SphericalTriangle triangle;
+    std::array<SphericalTriangle, EmittingPolygon::kMostCorners - 2> fan;
 
-    FaceView(const Emitter& emitter, const GatherPoint& at);
+    PolygonView(const Emitter& emitter, const GatherPoint& at);
+    Vec3d Direction(double u, double v) const;
     bool Place(const Vec2f& uv, Vec3f* target, float* value) const;
     bool PickPlace(const Vec2f& uv, int rays, Random* random, Vec3f* target, float* value) const;
   };
@@ -80,19 +81,19 @@ class DirectLight {
     int32_t begin = 0, end = 0;  ///< emitters below
     int32_t second = -1;         ///< second child; the first follows its parent; -1: a leaf
   };
-  /// A part of the emitters as seen from a point: a face whose light is known exactly, or a group.
+  /// A part of the emitters as seen from a point: a polygon whose light is known exactly, or a
+  /// group.
   struct Source {
     int32_t node;
-    Spectrum exact;    ///< irradiance with nothing in the way; of a face
+    Spectrum exact;    ///< irradiance with nothing in the way; of a polygon
     float weight = 0;  ///< by which rays are dealt out
   };
   static constexpr int kMostSources = 24;
 
-  void Add(int64_t face, Side side, const TriangleMesh& mesh);
   int32_t Build(int32_t begin, int32_t end);
   int Sources(const GatherPoint& at, Source* sources) const;
   Source Weigh(int32_t node, const GatherPoint& at) const;
-  Source PickFace(const Source& source, const GatherPoint& at, float* u, float* chance) const;
+  Source PickPolygon(const Source& source, const GatherPoint& at, float* u, float* chance) const;
   Spectrum CastRays(const GatherPoint& at, const Source* sources, int count, float total, int rays,
                     uint64_t seed, int* clear) const;
   DirectSample FromEmitters(const GatherPoint& at, int rays, uint64_t seed, int64_t* cast) const;

@@ -48,22 +48,6 @@ void AverageMaterial(const TriangleMesh& mesh, const FaceRuns& runs, const Clust
   element->emittance = emittance / total;
 }
 
-/// A place on a convex polygon, uniform in area where `u` and `v` are uniform in [0, 1].
-Vec3f PlaceOnPolygon(const Vec3f* corners, int count, float u, float v) {
-  float areas[kMaximumPolygonCorners] = {};
-  float total = 0;
-  for (int i = 2; i < count; ++i) {
-    areas[i] = Length(Cross(corners[i - 1] - corners[0], corners[i] - corners[0]));
-    total += areas[i];
-  }
-  int triangle = 2;
-  float left = u * total;
-  while (triangle + 1 < count && left >= areas[triangle]) left -= areas[triangle++];
-  u = areas[triangle] > 0 ? std::min(1.f, left / areas[triangle]) : 0.5f;
-  return PlaceOnTriangle(corners[0], corners[triangle - 1], corners[triangle],
-                         UniformTriangle(u, v));
-}
-
 /// Stratified places on a convex polygon: one low-discrepancy set, shifted by the element's seed.
 void SamplePolygon(const Vec3f* corners, int count, const Vec3f& normal, uint64_t seed,
                    std::array<SurfaceSample, kSamplesPerElement>* samples) {
