@@ -368,6 +368,12 @@ void SolveArguments::AddTo(CLI::App* command) {
   AddRepresentationOptions(command, map, this);
   AddMapOutputOptions(command, map, this);
   command->add_flag("--both-sides", bothSides, "PLY: keep both lit sides of a face");
+  command
+      ->add_option_function<double>(
+          "--simplify",
+          [this](double tolerance) { simplification.emplace().tolerance = tolerance; },
+          "Fewer triangles, light within this fraction of what it was")
+      ->check(Within(1e-6, 1, "from 1e-6 to 1"));
   command->add_option("--report", report, "Account of the run, JSON");
   command
       ->add_option("--verify", verifyPoints, "Measure the error at N points against a path trace")

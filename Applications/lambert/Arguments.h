@@ -50,6 +50,7 @@ struct SolveArguments {
   int threads = 0;
   LightArguments lights;
   std::string probe, probeOutput, image, size = "960x720", camera, up = "auto", report, lightMap;
+  std::optional<LitMeshSimplificationOptions> simplification;
   std::vector<PageFormat> pageFormats{PageFormat::Hdr};
   AtlasOptions atlas;
   LitModelOptions model;  ///< of glTF and HTML, without its tone

@@ -138,6 +138,18 @@ void Verify(const SolveArguments& arguments, const ProgressCallback& progress,
   }
 }
 
+/// Both meshes are measured where one is; an interrupt leaves the refined one.
+void Simplify(const SolveArguments& arguments, const ProgressCallback& progress,
+              ProgressDisplay* display, RadiosityRun* run) {
+  if (arguments.verifyPoints > 0) Verify(arguments, progress, display, run);
+  display->Begin("simplifying");
+  try {
+    run->Simplify(*arguments.simplification, progress);
+  } catch (const Cancelled&) {
+    display->Say("Interrupted: the mesh stays as it was refined.");
+  }
+}
+
 void PrintSummary(const SolveArguments& arguments, const RadiosityRun& run) {
   const SolverStatistics& s = run.Statistics();
   const TriangleMesh& mesh = run.Solution().mesh;
@@ -159,6 +171,11 @@ void PrintSummary(const SolveArguments& arguments, const RadiosityRun& run) {
     std::printf("brighter than the display: %lld points, %lld texels\n",
                 static_cast<long long>(run.DrawnModel()->clippedPoints),
                 static_cast<long long>(run.DrawnModel()->clippedTexels));
+  }
+  if (run.Simplification()) {
+    std::printf("simplified from %lld triangles, %lld points\n",
+                static_cast<long long>(run.Simplification()->trianglesBefore),
+                static_cast<long long>(run.Simplification()->pointsBefore));
   }
   if (run.Error() && run.Error()->points > 0) {
     const SolutionError& e = *run.Error();
@@ -213,6 +230,9 @@ int Solve(const SolveArguments& arguments) {
   // Outputs.
   if (!arguments.lightMap.empty() && !IsInterrupted()) {
     DrawLightMap(arguments, progress, &display, &run);
+  }
+  if (arguments.simplification && !IsInterrupted()) {
+    Simplify(arguments, progress, &display, &run);
   }
   Stage("write", &display, &run, [&] { WriteOutput(arguments, &run); });
   if (!arguments.probe.empty()) {

@@ -28,6 +28,9 @@ class LAMBERTCOMMON_EXPORT vtkRadiosityArrays : public vtkObject {
   static const char* ClusterId() { return "ClusterId"; }        ///< int
   static const char* ChartId() { return "ChartId"; }            ///< int, of an atlas
   static const char* PageId() { return "PageId"; }              ///< int, of an atlas
+  static const char* RelativeError() { return "RelativeError"; }  ///< float, signed
+  /// 3 float, W/m2, path traced in the middle of the cell
+  static const char* ReferenceIrradiance() { return "ReferenceIrradiance"; }
   static const char* LeafId() { return "LeafId"; }  ///< vtkIdType, leaf element, refined mesh
   ///@}
 
@@ -35,8 +38,9 @@ class LAMBERTCOMMON_EXPORT vtkRadiosityArrays : public vtkObject {
   static const char* Irradiance() { return "Irradiance"; }              ///< 3 float, W/m2
   static const char* Radiosity() { return "Radiosity"; }                ///< 3 float, W/m2
   static const char* IrradianceVector() { return "IrradianceVector"; }  ///< 9 float, W/m2
-  static const char* StandardError() { return "StandardError"; }        ///< 3 float, W/m2
-  static const char* LightMapTCoords() { return "LightMapTCoords"; }    ///< 2 float, [0, 1]
+  /// 3 float, W/m2; of an error map at cells
+  static const char* StandardError() { return "StandardError"; }
+  static const char* LightMapTCoords() { return "LightMapTCoords"; }  ///< 2 float, [0, 1]
   /// vtkIdType: points that charts made of one have its number
   static const char* SharedPointId() { return "SharedPointId"; }
   /// 3 float, unit, of the surface that a point lies on

@@ -254,6 +254,16 @@ void RadiosityRun::Verify(int points, const ProgressCallback& progress) {
   this->AddStage("verify", timer.Seconds());
 }
 
+void RadiosityRun::Simplify(const LitMeshSimplificationOptions& options,
+                            const ProgressCallback& progress) {
+  Timer timer;
+  LitMeshSimplificationStatistics statistics;
+  this->solution_ = SimplifyLitMesh(this->solution_, options, &statistics, progress);
+  this->simplification_ = statistics;
+  this->refinedError_ = std::exchange(this->error_, std::nullopt);
+  this->AddStage("simplify", timer.Seconds());
+}
+
 std::vector<std::string> RadiosityRun::Warnings() const {
   std::vector<std::string> warnings = this->reading_.warnings;
   warnings.insert(warnings.end(), this->cleaning_.warnings.begin(), this->cleaning_.warnings.end());

@@ -3,6 +3,7 @@
 #define RadiosityRun_h
 
 #include "Atlas/Core/LightMap.h"
+#include "Atlas/Core/LitMeshSimplification.h"
 #include "Atlas/Core/SurfaceRepresentation.h"
 #include "Clustering/Core/FaceClustering.h"
 #include "Common/Core/Progress.h"
@@ -74,6 +75,10 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   /// four times the paths where those leave open whether the request is met.
   void Verify(int points, const ProgressCallback& progress = {});
 
+  /// Decimates the solution (SimplifyLitMesh); an error that was measured is kept as that of the
+  /// refined mesh. A light map is drawn before. Throws Error, Cancelled.
+  void Simplify(const LitMeshSimplificationOptions& options, const ProgressCallback& progress = {});
+
   const RadiosityRunOptions& Options() const { return this->options_; }
   const Scene& GetScene() const { return this->scene_; }
   const ReadReport& Reading() const { return this->reading_; }
@@ -82,6 +87,11 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   const SolverStatistics& Statistics() const { return this->statistics_; }
   const RadiositySolution& Solution() const { return this->solution_; }
   const std::optional<SolutionError>& Error() const { return this->error_; }
+  /// What decimation left, where it was asked for; and the error before it, where it was measured.
+  const std::optional<LitMeshSimplificationStatistics>& Simplification() const {
+    return this->simplification_;
+  }
+  const std::optional<SolutionError>& RefinedError() const { return this->refinedError_; }
   const RadiosityAtlas& Atlas() const { return this->atlas_; }
   /// Where surfaces are represented in both ways; Atlas() and DrawnLightMap() are then of those in
   /// the light map.
@@ -110,7 +120,8 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   ClusterTree tree_;
   SolverStatistics statistics_;
   RadiositySolution solution_;
-  std::optional<SolutionError> error_;
+  std::optional<SolutionError> error_, refinedError_;
+  std::optional<LitMeshSimplificationStatistics> simplification_;
   RadiosityAtlas atlas_;
   std::optional<LightMap> lightMap_;
   std::optional<RepresentedScene> represented_;

@@ -248,6 +248,16 @@ std::string RunReportJson(const RadiosityRun& run, const std::string& version) {
                            {"clipped_points", model.clippedPoints},
                            {"clipped_texels", model.clippedTexels}};
   }
+  if (run.Simplification()) {
+    const LitMeshSimplificationStatistics& simplification = *run.Simplification();
+    report["simplification"] = {{"triangles_before", simplification.trianglesBefore},
+                                {"triangles_after", simplification.trianglesAfter},
+                                {"points_before", simplification.pointsBefore},
+                                {"points_after", simplification.pointsAfter}};
+    if (run.RefinedError() && run.RefinedError()->points > 0) {
+      report["simplification"]["error_before"] = ErrorJson(*run.RefinedError());
+    }
+  }
   report["output"] = {{"triangles", run.Solution().mesh.FaceCount()},
                       {"points", run.Solution().mesh.PointCount()}};
   if (run.Error()) {

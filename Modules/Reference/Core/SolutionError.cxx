@@ -120,24 +120,6 @@ bool LiesOn(const TriangleMesh& mesh, int32_t face, const Vec3f& p, float far) {
   return true;
 }
 
-/// Refuses a solution whose triangles do not lie on the faces that they name.
-void RequireSameScene(const std::vector<Place>& places, const SolutionLookup& lookup,
-                      const Scene& scene, const TriangleMesh& refined) {
-  constexpr float kFar = 1e-3f;  // of the diagonal; what is refined lies on its face to rounding
-  const float far = kFar * scene.mesh.Bounds().Diagonal();
-  for (const Place& place : places) {
-    const int32_t triangle = lookup.Find(place.face, place.side, place.receiver.position).triangle;
-    if (triangle < 0) continue;
-    const Vec3f centre =
-        (refined.Corner(triangle, 0) + refined.Corner(triangle, 1) + refined.Corner(triangle, 2)) /
-        3.f;
-    if (LiesOn(scene.mesh, place.face, centre, far)) continue;
-    throw Error(
-        "The solution does not lie on the scene's faces; it belongs to another scene, or to the "
-        "same one with its faces in another order.");
-  }
-}
-
 Comparison Compare(const Spectrum& delivered, const IrradianceEstimate& reference) {
   Comparison c;
   const double error = SquaredNorm(delivered - reference.irradiance);
@@ -178,6 +160,21 @@ void Bootstrap(const std::vector<Comparison>& comparisons, uint64_t seed, Soluti
 }
 
 }  // namespace
+
+void RequireSolutionOf(const Scene& scene, const RadiositySolution& solution) {
+  constexpr float kFar = 1e-3f;  // of the diagonal; what is refined lies on its face to rounding
+  const float far = kFar * scene.mesh.Bounds().Diagonal();
+  const TriangleMesh& refined = solution.mesh;
+  for (int64_t triangle = 0; triangle < refined.FaceCount(); ++triangle) {
+    const Vec3f centre =
+        (refined.Corner(triangle, 0) + refined.Corner(triangle, 1) + refined.Corner(triangle, 2)) /
+        3.f;
+    if (LiesOn(scene.mesh, int32_t(solution.inputFaceId[size_t(triangle)]), centre, far)) continue;
+    throw Error(
+        "The solution does not lie on the scene's faces; it belongs to another scene, or to the "
+        "same one with its faces in another order.");
+  }
+}
 
 SolutionError SummarizeError(const std::vector<Spectrum>& delivered,
                              const std::vector<IrradianceEstimate>& reference, uint64_t seed) {
@@ -222,13 +219,11 @@ struct ErrorSample {
 };
 
 /// Draws places and adds them to the sample.
-static void DrawPlaces(const Scene& scene, const RadiositySolution& solution,
-                       const SolutionLookup& lookup, const PathTracedIrradiance& tracer,
-                       const SolutionErrorOptions& options, ErrorSample* sample,
-                       const ProgressCallback& progress) {
+static void DrawPlaces(const Scene& scene, const SolutionLookup& lookup,
+                       const PathTracedIrradiance& tracer, const SolutionErrorOptions& options,
+                       ErrorSample* sample, const ProgressCallback& progress) {
   // Places that may receive light, and the truth there.
   const std::vector<Place> all = StratifiedPlaces(scene.mesh, options);
-  RequireSameScene(all, lookup, scene, solution.mesh);
   const std::vector<Place> places = WithoutDarkPlaces(all, lookup, tracer, options);
   PathTracedIrradianceOptions trace;
   trace.samples = options.samples;
@@ -255,6 +250,7 @@ SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& 
                                    const ProgressCallback& progress) {
   if (options.points < 1) throw Error("An error needs at least one point to be measured at.");
   const SolutionLookup lookup(solution, scene.mesh.FaceCount());
+  RequireSolutionOf(scene, solution);
   const PathTracedIrradiance tracer(scene);
   const int64_t mostPaths = int64_t(options.growth) * options.points * options.samples;
   SolutionErrorOptions draw = options;
@@ -264,7 +260,7 @@ SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& 
     const ProgressCallback half = [&](double fraction, const char* stage) {
       return Report(progress, done + (1 - done) / 2 * fraction, stage);
     };
-    DrawPlaces(scene, solution, lookup, tracer, draw, &sample, half);
+    DrawPlaces(scene, lookup, tracer, draw, &sample, half);
     done += (1 - done) / 2;
     SolutionError error = SummarizeError(sample.delivered, sample.truth, options.seed);
     error.darkPoints = sample.drawn - error.points;

@@ -44,6 +44,10 @@ struct SolutionError {
   double Counting() const { return this->IsRmsSure() ? rms : bounded; }
 };
 
+/// Throws Error where triangles of `solution` do not lie on the faces of `scene` that they name, to
+/// 1e-3 of the diagonal. Every `inputFaceId` is one of its faces.
+void RequireSolutionOf(const Scene& scene, const RadiositySolution& solution);
+
 /// The figures of irradiance `delivered` (W/m2) against its `reference`, one a point, which are the
 /// receiving points; none is dark or missed. `seed`: of the bootstraps. No light: no error.
 SolutionError SummarizeError(const std::vector<Spectrum>& delivered,

@@ -1,0 +1,417 @@
+#include "Atlas/Core/LitMeshSimplification.h"
+
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
+#include <OpenMesh/Tools/Decimater/ModBaseT.hh>
+#include <OpenMesh/Tools/Decimater/Observer.hh>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "Common/Core/Error.h"
+
+namespace lambert {
+
+namespace {
+
+/// A surface moves by less than this, a fraction of the diagonal: the floor of elements.
+constexpr double kFloor = 1e-6;
+/// Height over longest edge of the slimmest triangle that is made, but for those that were as slim.
+constexpr double kSlimmest = 0.05;
+
+struct Traits : OpenMesh::DefaultTraits {
+  using Point = OpenMesh::Vec3d;
+  VertexAttributes(OpenMesh::Attributes::Status);
+  EdgeAttributes(OpenMesh::Attributes::Status);
+  FaceAttributes(OpenMesh::Attributes::Status);
+};
+using Halfedges = OpenMesh::TriMesh_ArrayKernelT<Traits>;
+using CollapseInfo = OpenMesh::Decimater::CollapseInfoT<Halfedges>;
+
+/// What lies in one face of the solved mesh of the triangles about a point that goes.
+struct Fan {
+  int64_t key = 0;                           ///< of the face and its side
+  std::vector<int32_t> triangles;            ///< of the halfedges, that will have another corner
+  std::vector<std::array<int32_t, 2>> rims;  ///< of each: its other corners, counter-clockwise
+  std::vector<int32_t> ring;                 ///< all points about, but for the one that takes over
+  double deviation = 0;                      ///< largest so far, W/m2
+};
+
+double LargestBand(const Spectrum& light) {
+  return std::max({std::abs(light.r), std::abs(light.g), std::abs(light.b)});
+}
+
+Spectrum Mix(const Spectrum& a, const Spectrum& b, double t) {
+  return a * float(1 - t) + b * float(t);
+}
+
+/// Height over longest edge.
+double Slimness(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+  const double longest =
+      std::max({LengthSquared(b - a), LengthSquared(c - b), LengthSquared(a - c)});
+  return longest > 0 ? Length(Cross(b - a, c - a)) / longest : 0;
+}
+
+/// The plane of a face without the axis that it faces most.
+struct Plane {
+  int u = 0, v = 1;
+
+  explicit Plane(const Vec3d& normal) {
+    const Vec3d n(std::abs(normal.x), std::abs(normal.y), std::abs(normal.z));
+    if (n.x >= n.y && n.x >= n.z) {
+      u = 1, v = 2;
+    } else if (n.y >= n.z) {
+      u = 0, v = 2;
+    }
+  }
+  double Cross(const Vec3d& a, const Vec3d& b) const { return a[u] * b[v] - a[v] * b[u]; }
+};
+
+/// The light of a mesh as points are taken out of it, and how far it is from what it was.
+class SimplifiedLight {
+ public:
+  SimplifiedLight(const RadiositySolution& solution, double tolerance);
+
+  Halfedges halfedges;
+  std::vector<int32_t> faceOf;  ///< per face of the halfedges: that of the solution
+  std::vector<int32_t> apart;   ///< faces of the solution that no manifold takes
+
+  /// What becomes of the fans about `ci.v0` when `ci.v1` takes its place: with deviations as they
+  /// will be. None where the surface would move or turn, or light change too much.
+  std::optional<std::vector<Fan>> Replaced(const CollapseInfo& ci) const;
+  /// Deviation over what is allowed, the largest; and short edges first.
+  double Cost(const CollapseInfo& ci, const std::vector<Fan>& fans) const;
+  void Accept(const std::vector<Fan>& fans) {
+    for (const Fan& fan : fans) {
+      for (const int32_t triangle : fan.triangles) deviation_[size_t(triangle)] = fan.deviation;
+    }
+  }
+
+ private:
+  void LockSeams();
+  int64_t Key(Halfedges::FaceHandle face) const {
+    if (!face.is_valid()) return -1;
+    const size_t f = size_t(faceOf[size_t(face.idx())]);
+    return 2 * solution_.inputFaceId[f] + solution_.side[f];
+  }
+  Vec3d At(int32_t point) const { return Vec3d(solution_.mesh.positions[size_t(point)]); }
+  const Spectrum& Light(int32_t point) const { return solution_.irradiance[size_t(point)]; }
+  bool IsOnStraightBorder(const CollapseInfo& ci) const;
+  std::vector<Fan> FansAbout(const CollapseInfo& ci) const;
+  bool KeepsItsShape(const Fan& fan, const Vec3d& from, const Vec3d& to) const;
+  double Change(const Fan& fan, int32_t from, int32_t to) const;
+  double Allowed(const Fan& fan, int32_t to) const;
+
+  const RadiositySolution& solution_;
+  double tolerance_, diagonal_;
+  double meanLight_ = 0;           ///< W/m2
+  std::vector<double> deviation_;  ///< per face of the halfedges, W/m2
+};
+
+SimplifiedLight::SimplifiedLight(const RadiositySolution& solution, double tolerance)
+    : solution_(solution),
+      tolerance_(tolerance),
+      diagonal_(double(solution.mesh.Bounds().Diagonal())) {
+  // The mean light, which that of dark places counts against.
+  const TriangleMesh& mesh = solution.mesh;
+  double power = 0, area = 0;
+  for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
+    for (const int32_t corner : mesh.triangles[size_t(face)]) {
+      power += double(mesh.Area(face)) * double(Light(corner).Mean()) / 3;
+    }
+    area += double(mesh.Area(face));
+  }
+  meanLight_ = area > 0 ? power / area : 0;
+
+  // Half-edges of what is manifold; OpenMesh would print what is not.
+  for (int32_t point = 0; point < int32_t(mesh.PointCount()); ++point) {
+    const Vec3d p = At(point);
+    halfedges.add_vertex({p.x, p.y, p.z});
+  }
+  omerr().disable();
+  for (int32_t face = 0; face < int32_t(mesh.FaceCount()); ++face) {
+    const auto& t = mesh.triangles[size_t(face)];
+    using Point = Halfedges::VertexHandle;
+    const bool isFlat = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+    if (!isFlat && halfedges.add_face(Point(t[0]), Point(t[1]), Point(t[2])).is_valid()) {
+      faceOf.push_back(face);
+    } else {
+      apart.push_back(face);
+    }
+  }
+  omerr().enable();
+  deviation_.assign(faceOf.size(), 0);
+  LockSeams();
+}
+
+/// Points on a border where another border has its own stay, and all that other triangles hold.
+void SimplifiedLight::LockSeams() {
+  std::map<std::array<float, 3>, std::vector<int32_t>> borders;
+  for (const auto point : halfedges.vertices()) {
+    const Vec3f& p = solution_.mesh.positions[size_t(point.idx())];
+    if (halfedges.is_boundary(point)) borders[{p.x, p.y, p.z}].push_back(point.idx());
+  }
+  for (const auto& [place, points] : borders) {
+    if (points.size() < 2) continue;
+    for (const int32_t point : points) {
+      halfedges.status(Halfedges::VertexHandle(point)).set_locked(true);
+    }
+  }
+  for (const int32_t face : apart) {
+    for (const int32_t point : solution_.mesh.triangles[size_t(face)]) {
+      halfedges.status(Halfedges::VertexHandle(point)).set_locked(true);
+    }
+  }
+}
+
+/// True where v0 lies inside one face, or on a straight line from v1 on between two or along a free
+/// edge.
+bool SimplifiedLight::IsOnStraightBorder(const CollapseInfo& ci) const {
+  int borders = 0;
+  bool isAlong = false;
+  Vec3d before;
+  for (const auto spoke : halfedges.voh_range(ci.v0)) {
+    const auto opposite = halfedges.opposite_halfedge_handle(spoke);
+    if (Key(halfedges.face_handle(spoke)) == Key(halfedges.face_handle(opposite))) continue;
+    ++borders;
+    const int32_t end = halfedges.to_vertex_handle(spoke).idx();
+    if (end == ci.v1.idx()) {
+      isAlong = true;
+    } else {
+      before = At(end);
+    }
+  }
+  if (borders == 0) return true;
+  if (borders != 2 || !isAlong) return false;
+  const Vec3d p = At(ci.v0.idx()), line = At(ci.v1.idx()) - before;
+  return Dot(p - before, line) > 0 && Dot(At(ci.v1.idx()) - p, line) > 0 &&
+         Length(Cross(p - before, line)) <= kFloor * diagonal_ * Length(line);
+}
+
+std::vector<Fan> SimplifiedLight::FansAbout(const CollapseInfo& ci) const {
+  std::vector<Fan> fans;
+  for (const auto spoke : halfedges.voh_range(ci.v0)) {
+    const auto face = halfedges.face_handle(spoke);
+    if (!face.is_valid()) continue;
+    const int64_t key = Key(face);
+    auto fan = std::find_if(fans.begin(), fans.end(), [&](const Fan& f) { return f.key == key; });
+    if (fan == fans.end()) {
+      fan = fans.insert(fans.end(), Fan());
+      fan->key = key;
+    }
+    fan->deviation = std::max(fan->deviation, deviation_[size_t(face.idx())]);
+    const int32_t a = halfedges.to_vertex_handle(spoke).idx();
+    const int32_t b = halfedges.to_vertex_handle(halfedges.next_halfedge_handle(spoke)).idx();
+    for (const int32_t point : {a, b}) {
+      const bool isKnown = std::find(fan->ring.begin(), fan->ring.end(), point) != fan->ring.end();
+      if (point != ci.v1.idx() && !isKnown) fan->ring.push_back(point);
+    }
+    if (face == ci.fl || face == ci.fr) continue;
+    fan->triangles.push_back(face.idx());
+    fan->rims.push_back({a, b});
+  }
+  return fans;
+}
+
+/// No triangle of the fan turns over or becomes a sliver.
+bool SimplifiedLight::KeepsItsShape(const Fan& fan, const Vec3d& from, const Vec3d& to) const {
+  double slimmest = kSlimmest;
+  for (const auto& [a, b] : fan.rims) slimmest = std::min(slimmest, Slimness(from, At(a), At(b)));
+  for (const auto& [a, b] : fan.rims) {
+    const Vec3d before = Cross(At(a) - from, At(b) - from), after = Cross(At(a) - to, At(b) - to);
+    if (Dot(before, after) <= 0 || Slimness(to, At(a), At(b)) < slimmest) return false;
+  }
+  return !fan.rims.empty();
+}
+
+/// The most by which light changes in the fan, W/m2, when `to` takes the place of `from`: both are
+/// linear between their edges, so that it is at the point that goes, or where an edge that it had
+/// crosses one that comes.
+double SimplifiedLight::Change(const Fan& fan, int32_t from, int32_t to) const {
+  const Vec3d p = At(from), q = At(to);
+  const Plane plane(Cross(At(fan.rims[0][0]) - p, At(fan.rims[0][1]) - p));
+
+  // At the point that goes: in the new triangle that it lies in.
+  double deepest = -1, change = 0;
+  for (const auto& [a, b] : fan.rims) {
+    const Vec3d u = At(a) - q, v = At(b) - q;
+    const double s = plane.Cross(p - q, v) / plane.Cross(u, v);
+    const double t = plane.Cross(u, p - q) / plane.Cross(u, v);
+    const double depth = std::min({s, t, 1 - s - t});
+    if (depth <= deepest) continue;
+    deepest = depth;
+    change = LargestBand(Light(to) * float(1 - s - t) + Light(a) * float(s) + Light(b) * float(t) -
+                         Light(from));
+  }
+
+  // Where edges cross.
+  for (const int32_t i : fan.ring) {
+    for (const int32_t j : fan.ring) {
+      const Vec3d u = At(i) - p, v = At(j) - q;
+      const double area = plane.Cross(u, v);
+      if (i == j || area == 0) continue;
+      const double s = plane.Cross(q - p, v) / area, t = plane.Cross(q - p, u) / area;
+      if (s < 0 || s > 1 || t < 0 || t > 1) continue;
+      change = std::max(change,
+                        LargestBand(Mix(Light(to), Light(j), t) - Mix(Light(from), Light(i), s)));
+    }
+  }
+  return change;
+}
+
+/// W/m2: of the darkest corner that the fan will have.
+double SimplifiedLight::Allowed(const Fan& fan, int32_t to) const {
+  double darkest = double(Light(to).Mean());
+  for (const int32_t point : fan.ring) darkest = std::min(darkest, double(Light(point).Mean()));
+  return tolerance_ * std::max(darkest, meanLight_);
+}
+
+std::optional<std::vector<Fan>> SimplifiedLight::Replaced(const CollapseInfo& ci) const {
+  if (!IsOnStraightBorder(ci)) return {};
+  std::vector<Fan> fans = FansAbout(ci);
+  for (Fan& fan : fans) {
+    if (!KeepsItsShape(fan, At(ci.v0.idx()), At(ci.v1.idx()))) return {};
+    fan.deviation += Change(fan, ci.v0.idx(), ci.v1.idx());
+    if (!(fan.deviation <= Allowed(fan, ci.v1.idx()))) return {};
+  }
+  return fans;
+}
+
+double SimplifiedLight::Cost(const CollapseInfo& ci, const std::vector<Fan>& fans) const {
+  double cost = 0;
+  for (const Fan& fan : fans) {
+    if (fan.deviation > 0) cost = std::max(cost, fan.deviation / Allowed(fan, ci.v1.idx()));
+  }
+  return cost + Length(At(ci.v1.idx()) - At(ci.v0.idx())) / diagonal_;
+}
+
+/// Lets OpenMesh's decimater ask what a collapse does to the light.
+template <class MeshT>
+class ModLight : public OpenMesh::Decimater::ModBaseT<MeshT> {
+ public:
+  DECIMATING_MODULE(ModLight, MeshT, Light);
+
+  explicit ModLight(MeshT& mesh) : Base(mesh, false) {}
+  void SetLight(SimplifiedLight* light) { light_ = light; }
+
+  float collapse_priority(const CollapseInfo& ci) override {
+    const auto fans = light_->Replaced(ci);
+    return fans ? float(light_->Cost(ci, *fans)) : float(Base::ILLEGAL_COLLAPSE);
+  }
+  void preprocess_collapse(const CollapseInfo& ci) override {
+    light_->Accept(light_->Replaced(ci).value());
+  }
+
+ private:
+  SimplifiedLight* light_ = nullptr;
+};
+
+/// Tells how far the decimation is, and ends it.
+class Watch : public OpenMesh::Decimater::Observer {
+ public:
+  Watch(const ProgressCallback& progress, size_t points)
+      : Observer(1024), progress_(progress), points_(double(points)) {}
+  void notify(size_t removed) override {
+    isCancelled = !Report(progress_, double(removed) / points_, "simplifying");
+  }
+  bool abort() const override { return isCancelled; }
+
+  bool isCancelled = false;
+
+ private:
+  const ProgressCallback& progress_;
+  double points_;
+};
+
+/// The faces named, in their order, with the points that they need.
+RadiositySolution Part(const RadiositySolution& whole, const std::vector<int32_t>& faces) {
+  RadiositySolution part;
+  const TriangleMesh& mesh = whole.mesh;
+  std::vector<int32_t> newPoint(mesh.positions.size(), -1);
+  const auto take = [](const auto& from, size_t i, auto* to) {
+    if (!from.empty()) to->push_back(from[i]);
+  };
+  for (const int32_t face : faces) {
+    const size_t f = size_t(face);
+    take(mesh.triangles, f, &part.mesh.triangles);
+    take(mesh.reflectance, f, &part.mesh.reflectance);
+    take(mesh.emittance, f, &part.mesh.emittance);
+    take(mesh.faceFlags, f, &part.mesh.faceFlags);
+    take(mesh.materialId, f, &part.mesh.materialId);
+    take(mesh.partId, f, &part.mesh.partId);
+    take(mesh.surfaceId, f, &part.mesh.surfaceId);
+    take(mesh.sourceCellId, f, &part.mesh.sourceCellId);
+    take(whole.inputFaceId, f, &part.inputFaceId);
+    take(whole.side, f, &part.side);
+    for (const int32_t corner : mesh.triangles[f]) newPoint[size_t(corner)] = 0;
+  }
+  for (size_t point = 0; point < newPoint.size(); ++point) {
+    if (newPoint[point] < 0) continue;
+    newPoint[point] = int32_t(part.mesh.positions.size());
+    take(mesh.positions, point, &part.mesh.positions);
+    take(mesh.normals, point, &part.mesh.normals);
+    take(mesh.uvs, point, &part.mesh.uvs);
+    take(whole.irradiance, point, &part.irradiance);
+    take(whole.radiosity, point, &part.radiosity);
+  }
+  for (auto& triangle : part.mesh.triangles) {
+    for (int32_t& corner : triangle) corner = newPoint[size_t(corner)];
+  }
+  part.inputIrradiance = whole.inputIrradiance;
+  return part;
+}
+
+/// `solution` with the corners that its triangles have now; those that are left.
+RadiositySolution WhatIsLeft(const RadiositySolution& solution, const SimplifiedLight& light) {
+  RadiositySolution turned = solution;
+  std::vector<int32_t> faces = light.apart;
+  for (const auto face : light.halfedges.faces()) {
+    const int32_t old = light.faceOf[size_t(face.idx())];
+    if (light.halfedges.status(face).deleted()) continue;
+    faces.push_back(old);
+    int corner = 0;
+    for (const auto point : light.halfedges.fv_range(face)) {
+      turned.mesh.triangles[size_t(old)][size_t(corner++)] = point.idx();
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  return Part(turned, faces);
+}
+
+}  // namespace
+
+RadiositySolution SimplifyLitMesh(const RadiositySolution& solution,
+                                  const LitMeshSimplificationOptions& options,
+                                  LitMeshSimplificationStatistics* statistics,
+                                  const ProgressCallback& progress) {
+  if (!(options.tolerance > 0 && options.tolerance <= 1)) {
+    throw Error("The tolerance of simplified light is a fraction above 0 and up to 1.");
+  }
+
+  // Collapse edges, those that change light least first.
+  SimplifiedLight light(solution, options.tolerance);
+  OpenMesh::Decimater::DecimaterT<Halfedges> decimater(light.halfedges);
+  ModLight<Halfedges>::Handle module;
+  decimater.add(module);
+  decimater.module(module).SetLight(&light);
+  Watch watch(progress, solution.mesh.positions.size());
+  decimater.set_observer(&watch);
+  decimater.initialize();
+  decimater.decimate();
+  if (watch.isCancelled) throw Cancelled();
+
+  // What is left.
+  RadiositySolution simplified = WhatIsLeft(solution, light);
+  if (statistics) {
+    statistics->trianglesBefore = solution.mesh.FaceCount();
+    statistics->trianglesAfter = simplified.mesh.FaceCount();
+    statistics->pointsBefore = solution.mesh.PointCount();
+    statistics->pointsAfter = simplified.mesh.PointCount();
+  }
+  return simplified;
+}
+
+}  // namespace lambert
