@@ -179,8 +179,10 @@ bool vtkHierarchicalRadiosity::PrepareSolver(vtkPolyData* input, vtkTable* clust
   made->hasGivenTree = clusters && clusters->GetNumberOfRows() > 0;
   made->methodScene = std::move(next);
   made->tree = ClusterScene(clusters, progress, &made->methodScene);
+  lambert::HierarchicalRadiosityOptions options = *this->Options;
+  options.keepsTransfers = this->KeepLinks;
   made->solver = std::make_unique<lambert::HierarchicalRadiosity>(made->methodScene.scene,
-                                                                  made->tree, *this->Options);
+                                                                  made->tree, options);
   this->Kept = std::move(made);
   return false;
 }

@@ -12,10 +12,9 @@
 #include "Radiosity/Core/FinalGather.h"
 #include "Radiosity/Core/GatheredSolution.h"
 #include "Radiosity/Core/LightExchange.h"
-#include "Radiosity/Core/LightReconstruction.h"
 #include "Radiosity/Core/LinkRefinement.h"
+#include "Radiosity/Core/LinkSolution.h"
 #include "Radiosity/Core/LitSides.h"
-#include "Radiosity/Core/RefinedMesh.h"
 #include "Radiosity/Core/SolverMemory.h"
 #include "Radiosity/Core/SolverState.h"
 #include "Radiosity/Core/Verification.h"
@@ -140,9 +139,7 @@ static const Scene& Checked(const Scene& scene) {
       mesh.surfaceId.size() != mesh.triangles.size()) {
     throw Error(
         "The mesh lacks point normals or surface numbers; make the first with CompletePointNormals "
-        "and "
-        "the "
-        "second with ClusterFaces.");
+        "and the second with ClusterFaces.");
   }
   return scene;
 }
@@ -184,13 +181,14 @@ struct HierarchicalRadiosity::Implementation {
   LinkNetwork network;
   std::vector<Exposure> exposures;
   std::optional<RadiositySolution> delivered;  ///< once gathered or verified
+  std::unique_ptr<LinkSolution> linkSolution;  ///< while its links are these
   const SolverMemory memory;
   double firstThreshold = kFirstThreshold;
   bool isFull = false;       ///< the last refinement found no room
   Timer clock;               ///< since the run began
-  double secondsBefore = 0;  ///< that runs took which this one goes on from
-  double
-      received;  ///< power that the leaves receive, W, largest band; thresholds are fractions of it
+  double secondsBefore = 0;  ///< of the runs that this one goes on from
+  /// Power that the leaves receive, W, largest band; thresholds are fractions of it.
+  double received;
 
   SolverState State() {
     return {hierarchy, light, network, exposures, received, statistics.history};
@@ -251,6 +249,7 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
 
     // Links as fine as the request usually asks for: gather, or see whether they are good enough.
     if (threshold <= last && self.options.finalGather) {
+      self.linkSolution.reset();
       if (self.options.timeLimit > 0 && !self.HasTimeFor(self.PredictGatherSeconds())) {
         statistics.stoppedBy = "time";
       } else if (!self.memory.HasRoomForGather()) {
@@ -264,6 +263,7 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
       if (self.EndsVerified(&verification)) break;
       last = threshold * kThresholdFactor;
     }
+    self.linkSolution.reset();
     if (!self.HasTimeFor(iterationTimer.Seconds())) statistics.stoppedBy = "time";
     if (!self.memory.HasRoomForIteration(statistics.history)) statistics.stoppedBy = "memory";
     threshold *= kThresholdFactor;
@@ -283,6 +283,7 @@ bool HierarchicalRadiosity::Implementation::RefineAndExchange(double last, doubl
     isFull = !statistics.history.empty() && !memory.HasRoomFor(double(elements), double(links));
     return !isFull;
   };
+  linkSolution.reset();
   for (;; *threshold *= kThresholdFactor) {
     *threshold = std::max(last, *threshold);
     do {
@@ -384,9 +385,16 @@ void HierarchicalRadiosity::Implementation::Count() {
 
 // Light at the points of the mesh by the links alone.
 RadiositySolution HierarchicalRadiosity::Implementation::Reconstruct() {
-  const LightReconstruction reconstruction(hierarchy, network, light, rayScene);
-  const RefinedMesh mesh(&hierarchy, litSides);
-  return mesh.Deliver(mesh.Light(reconstruction, &network.rays));
+  if (!linkSolution || !linkSolution->FitsLeaves()) {
+    linkSolution.reset();
+    const bool keeps = options.keepsTransfers && memory.HasRoomToKeep(network.Count());
+    linkSolution =
+        std::make_unique<LinkSolution>(&hierarchy, network, light, rayScene, litSides, keeps);
+    ++statistics.linkMeshes;
+  }
+  RadiositySolution solution = linkSolution->Deliver(&network.rays, &statistics.linkTransfers);
+  if (!linkSolution->Keeps()) linkSolution.reset();
+  return solution;
 }
 
 // Verifies what is delivered; true, with the reason, where that ends the run.
@@ -443,9 +451,7 @@ void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
       const double next = (round == 0 ? kFirstRound : kRoundGrowth) * iterationTimer.Seconds();
       if (self.EndsHere(goOn)) return;
       if (!self.HasTimeFor(next)) statistics.stoppedBy = "time";
-      if (!self.memory.HasRoomForCuts(*self.delivered)) {
-        statistics.stoppedBy = "memory";
-      }
+      if (!self.memory.HasRoomForCuts(*self.delivered)) statistics.stoppedBy = "memory";
       if (!statistics.stoppedBy.empty()) return;
     }
     if (self.EndsVerified(&verification)) return;
@@ -473,6 +479,7 @@ bool HierarchicalRadiosity::Relight() {
   self.Exchange(kLastSweepTolerance);
   self.received = std::max(SourcePower(self.scene), ReceivedPower(self.hierarchy, self.light));
   self.delivered.reset();
+  if (self.linkSolution) self.linkSolution->TakeMaterials();
   if (!self.statistics.history.empty()) {
     self.firstThreshold = self.statistics.history.back().threshold;
   }

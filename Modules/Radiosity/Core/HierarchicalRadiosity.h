@@ -43,6 +43,9 @@ struct HierarchicalRadiosityOptions {
   bool finalGather = true;
   Schedule schedule = Schedule::Scheduled;
   OracleKind oracle = OracleKind::Doubt;  ///< what judges links
+  /// Whether the mesh of the links' light and the transfers to its points stay, where memory
+  /// allows, for Solution() after Relight().
+  bool keepsTransfers = false;
   /// File that gets the state at the end of every iteration of links, to go on from; empty: none.
   std::string saveState;
   /// File that a run of the same scene saved and that this one goes on from; empty: from the

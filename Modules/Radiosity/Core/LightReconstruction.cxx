@@ -21,12 +21,23 @@ constexpr float kMostOfMean = 3;
 /// Links that give less than this part are not evaluated anew within their triangle.
 constexpr float kFaintPart = 2e-3f;
 
+bool IsOpen(const Link& link) { return link.isSampled && link.visibility != 0; }
+
+/// Links, known to be more than nothing, whose transfers are evaluated.
+int32_t CountOpen(const std::vector<Link>& links) {
+  return int32_t(std::count_if(links.begin(), links.end(), IsOpen));
+}
+
 }  // namespace
 
 LightReconstruction::LightReconstruction(const ElementHierarchy& hierarchy,
                                          const LinkNetwork& network, const ElementLight& light,
-                                         const RayScene& rayScene)
-    : hierarchy_(hierarchy), network_(network), light_(light), rayScene_(rayScene) {
+                                         const RayScene& rayScene, std::atomic<int64_t>* room)
+    : hierarchy_(hierarchy),
+      network_(network),
+      light_(light),
+      rayScene_(rayScene),
+      transfers_(hierarchy.Levels().size(), KeptTransfers(room)) {
   // Corners are kept for clusters of several faces; triangles and patches are evaluated where they
   // are asked.
   cornerIndex_.assign(size_t(hierarchy.Size()), -1);
@@ -35,24 +46,36 @@ LightReconstruction::LightReconstruction(const ElementHierarchy& hierarchy,
     if (IsCluster(element)) cornerIndex_[size_t(element)] = clusters++;
   }
   corners_.resize(size_t(clusters));
+}
 
-  // The parent's light, interpolated, plus the cluster's own links.
-  for (const std::vector<int32_t>& level : hierarchy.Levels()) {
-    ParallelForEach(int64_t(level.size()), 32, [&](int64_t i) {
-      const int32_t index = level[size_t(i)];
-      if (!IsCluster(index)) return;
-      const Element& cluster = hierarchy_[index];
-      const Element& parent = hierarchy_[cluster.parent];
-      for (int k = 0; k < 4; ++k) {
-        const Vec3f x = cluster.frame.Corner(k);
-        VectorIrradiance sum =
-            parent.IsVolume() ? FromVolumes(index, x)
-                              : PushIrradiance(parent, Interpolate(cluster.parent, x), cluster);
-        AddLinks(index, cluster, x, false, &sum, nullptr);
-        corners_[size_t(cornerIndex_[size_t(index)])][size_t(k)] = sum;
-      }
-    });
+void LightReconstruction::LightCorners() {
+  for (size_t depth = 0; depth < transfers_.size(); ++depth) {
+    const std::vector<int32_t>& level = hierarchy_.Levels()[depth];
+    transfers_[depth].ForEachPlace(
+        int64_t(level.size()), [&](int64_t i, KeptTransfers::Cursor* transfers) {
+          const int32_t index = level[size_t(i)];
+          if (!IsCluster(index)) return;
+          for (int k = 0; k < 4; ++k) {
+            corners_[size_t(cornerIndex_[size_t(index)])][size_t(k)] =
+                AtCorner(index, hierarchy_[index].frame.Corner(k), transfers);
+          }
+        });
   }
+}
+
+// The parent's light, interpolated, plus the cluster's own links.
+VectorIrradiance LightReconstruction::AtCorner(int32_t index, const Vec3f& x,
+                                               KeptTransfers::Cursor* transfers) const {
+  const Element& cluster = hierarchy_[index];
+  VectorIrradiance sum = FromAbove(index, x, transfers);
+  AddLinks(index, cluster, x, transfers, &sum);
+  return sum;
+}
+
+int64_t LightReconstruction::TransfersMade() const {
+  int64_t made = 0;
+  for (const KeptTransfers& transfers : transfers_) made += transfers.Made();
+  return made;
 }
 
 bool LightReconstruction::IsCluster(int32_t element) const {
@@ -61,7 +84,7 @@ bool LightReconstruction::IsCluster(int32_t element) const {
 }
 
 VectorIrradiance LightReconstruction::At(const Vec3f& x, const std::vector<Share>& shares,
-                                         int64_t* rays) const {
+                                         KeptTransfers::Cursor* transfers, int64_t* rays) const {
   // The elements whose links count here: leaves and what is above them within their triangles.
   // Leaves of one triangle share those, and they are evaluated once.
   VectorIrradiance sum;
@@ -83,23 +106,24 @@ VectorIrradiance LightReconstruction::At(const Vec3f& x, const std::vector<Share
       held->weight += weight;
       held->inside += share.inside * weight;
       within = hierarchy_[index].kind == ElementKind::Patch;
-      if (!within) sum += FromAbove(index, place) * weight;
+      if (!within) sum += FromAbove(index, place, transfers) * weight;
     }
   }
   for (const Share& holder : holders) {
     if (!(holder.weight > 0)) continue;
     const Vec3f place = x + (holder.inside / holder.weight - x) * kInset;
     VectorIrradiance own;
-    AddLinks(holder.leaf, hierarchy_[holder.leaf], place, true, &own, rays);
+    AddLinks(holder.leaf, hierarchy_[holder.leaf], place, transfers, &own, rays);
     sum += own * holder.weight;
   }
   return sum;
 }
 
-// What a single triangle has from the clusters or volumes above it, clipped at its plane.
-VectorIrradiance LightReconstruction::FromAbove(int32_t polygon, const Vec3f& x) const {
-  const Element& receiver = hierarchy_[polygon];
-  if (hierarchy_[receiver.parent].IsVolume()) return FromVolumes(polygon, x);
+// What a triangle or cluster has from the clusters or volumes above it, clipped at its plane.
+VectorIrradiance LightReconstruction::FromAbove(int32_t element, const Vec3f& x,
+                                                KeptTransfers::Cursor* transfers) const {
+  const Element& receiver = hierarchy_[element];
+  if (hierarchy_[receiver.parent].IsVolume()) return FromVolumes(element, x, transfers);
   return PushIrradiance(hierarchy_[receiver.parent], Interpolate(receiver.parent, x), receiver);
 }
 
@@ -121,43 +145,49 @@ VectorIrradiance LightReconstruction::Interpolate(int32_t cluster, const Vec3f& 
   return sum;
 }
 
+// Where `rays` is given, links are judged by what they bring: what hardly counts is taken as it is,
+// and rays are cast for what is partly blocked.
 void LightReconstruction::AddLinks(int32_t holder, const Element& receiver, const Vec3f& x,
-                                   bool castRays, VectorIrradiance* sum, int64_t* rays) const {
+                                   KeptTransfers::Cursor* transfers, VectorIrradiance* sum,
+                                   int64_t* rays) const {
   const Vec3f horizon = receiver.TurnsToAllSides() ? Vec3f() : receiver.axis;
   const float received =
       ElementIrradiance(hierarchy_[holder], light_.irradiance[size_t(holder)]).MaxBand();
-  for (const Link& link : network_.incoming[size_t(holder)]) {
+  const std::vector<Link>& links = network_.incoming[size_t(holder)];
+  KeptTransfers::Transfer* next = transfers->Visit(holder, x, CountOpen(links));
+  for (const Link& link : links) {
+    if (!IsOpen(link)) continue;
+    KeptTransfers::Transfer* transfer = next++;
     const Spectrum& radiosity = light_.radiosity[size_t(link.source)];
-    if (!link.isSampled || link.visibility == 0 || radiosity.IsBlack()) continue;
+    if (radiosity.IsBlack()) continue;
     const Element& source = hierarchy_[link.source];
     const bool isPartial = link.visibility < 255;
-
-    // A sky is nothing but its visibility.
     if (source.kind == ElementKind::Light && hierarchy_.LightOf(source).FillsSky()) {
-      float visible = 0;
-      int64_t cast = 0;
-      const Vec3f transfer = castRays && isPartial
-                                 ? SkyTransfer(hierarchy_.LightOf(source), rayScene_, source, x,
-                                               horizon, &visible, &cast)
-                                 : link.transfer;
-      sum->Add(transfer, radiosity);
-      if (receiver.TurnsToAllSides()) sum->isotropic += radiosity * Length(transfer);
-      if (rays) *rays += cast;
+      const Vec3f fromSky = FromSky(link, x, horizon, transfer, rays);
+      sum->Add(fromSky, radiosity);
+      if (receiver.TurnsToAllSides()) sum->isotropic += radiosity * Length(fromSky);
       continue;
     }
-    // What hardly counts is taken as it is.
     const float strength = Length(link.transfer) * radiosity.MaxBand();
-    if (castRays && strength < kFaintPart * received) {
+    if (rays && strength < kFaintPart * received) {
       sum->Add(link.transfer, radiosity);
       continue;
     }
-    const Vec3f kernel = UnoccludedTransfer(hierarchy_, source, x, horizon);
-    float visible = float(link.visibility) / 255;
-    if (castRays && isPartial &&
-        Length(kernel) * radiosity.MaxBand() > kNegligiblePart * received) {
-      visible = VisibleFraction(hierarchy_, rayScene_, source, x, horizon, rays);
+
+    // The kernel at this place, and how much of the source is seen from here.
+    if (transfer->visible == KeptTransfers::kUnknown) {
+      *transfer = {UnoccludedTransfer(hierarchy_, source, x, horizon), KeptTransfers::kUnoccluded};
+      transfers->CountMade();
     }
-    if (!castRays) {
+    const Vec3f& kernel = transfer->kernel;
+    float visible = float(link.visibility) / 255;
+    if (rays && isPartial && Length(kernel) * radiosity.MaxBand() > kNegligiblePart * received) {
+      if (transfer->visible < 0) {
+        transfer->visible = VisibleFraction(hierarchy_, rayScene_, source, x, horizon, rays);
+      }
+      visible = transfer->visible;
+    }
+    if (!rays) {
       // A cluster's corner lies beside its faces and may see what none of them does.
       const float most = kMostOfMean * Length(link.transfer);
       visible = std::min(visible, most / std::max(Length(kernel), 1e-30f));
@@ -167,12 +197,25 @@ void LightReconstruction::AddLinks(int32_t holder, const Element& receiver, cons
   }
 }
 
+// A sky is nothing but its visibility.
+Vec3f LightReconstruction::FromSky(const Link& link, const Vec3f& x, const Vec3f& horizon,
+                                   KeptTransfers::Transfer* transfer, int64_t* rays) const {
+  if (!rays || link.visibility == 255) return link.transfer;
+  if (transfer->visible < 0) {
+    const Element& source = hierarchy_[link.source];
+    transfer->kernel = SkyTransfer(hierarchy_.LightOf(source), rayScene_, source, x, horizon,
+                                   &transfer->visible, rays);
+  }
+  return transfer->kernel;
+}
+
 // Links at volume clusters, pushed to the root of one side of a surface.
-VectorIrradiance LightReconstruction::FromVolumes(int32_t surfaceSide, const Vec3f& x) const {
+VectorIrradiance LightReconstruction::FromVolumes(int32_t surfaceSide, const Vec3f& x,
+                                                  KeptTransfers::Cursor* transfers) const {
   const Element& receiver = hierarchy_[surfaceSide];
   VectorIrradiance sum;
   for (int32_t volume = receiver.parent; volume >= 0; volume = hierarchy_[volume].parent) {
-    AddLinks(volume, receiver, x, false, &sum, nullptr);
+    AddLinks(volume, receiver, x, transfers, &sum);
   }
   return sum;
 }

@@ -212,18 +212,13 @@ RefinedMesh::Point RefinedMesh::MakePoint(const Range& group) const {
   Point point;
   point.key = corners_[size_t(group.begin)].key;
   point.position = vertices.Position(vertex);
-  float total = 0, largest = -1;
+  float largest = -1;
   for (int64_t i = group.begin; i < group.end; ++i) {
     const Corner& corner = corners_[size_t(i)];
     const LeafTriangle& triangle = triangles_[size_t(corner.triangle)];
     const float angle = AngleAt(vertices, triangle, corner.corner);
     point.faceNormal +=
         input.FrontNormal(triangle.face) * (triangle.side == kBack ? -angle : angle);
-    point.reflectance += input.reflectance[size_t(triangle.face)] * angle;
-    if (input.Emits(triangle.face, Side(triangle.side))) {
-      point.emittance += input.emittance[size_t(triangle.face)] * angle;
-    }
-    total += angle;
     const Vec3f p = vertices.Position(triangle.vertices[0]);
     const float area = Length(Cross(vertices.Position(triangle.vertices[1]) - p,
                                     vertices.Position(triangle.vertices[2]) - p));
@@ -239,13 +234,38 @@ RefinedMesh::Point RefinedMesh::MakePoint(const Range& group) const {
     point.inside = inside.position;
     point.insideNormal = isBack ? -inside.frontNormal : inside.frontNormal;
   }
-  point.reflectance *= 1 / total;
-  point.emittance *= 1 / total;
   point.faceNormal = Normalize(point.faceNormal);
   point.normal = Normalize(vertices.Interpolate(input.normals, vertex));
   if (Dot(point.normal, point.faceNormal) < 0) point.normal = -point.normal;
   if (!input.uvs.empty()) point.uv = vertices.Interpolate(input.uvs, vertex);
+  this->AverageMaterial(group, &point);
   return point;
+}
+
+// By angle, as all that is averaged at a point.
+void RefinedMesh::AverageMaterial(const Range& group, Point* point) const {
+  const TriangleMesh& input = hierarchy_->GetScene().mesh;
+  const VertexReader vertices{input, hierarchy_->Leaves().Vertices()};
+  float total = 0;
+  Spectrum reflectance, emittance;
+  for (int64_t i = group.begin; i < group.end; ++i) {
+    const Corner& corner = corners_[size_t(i)];
+    const LeafTriangle& triangle = triangles_[size_t(corner.triangle)];
+    const float angle = AngleAt(vertices, triangle, corner.corner);
+    reflectance += input.reflectance[size_t(triangle.face)] * angle;
+    if (input.Emits(triangle.face, Side(triangle.side))) {
+      emittance += input.emittance[size_t(triangle.face)] * angle;
+    }
+    total += angle;
+  }
+  point->reflectance = reflectance * (1 / total);
+  point->emittance = emittance * (1 / total);
+}
+
+void RefinedMesh::TakeMaterials() {
+  ParallelForEach(int64_t(points_.size()), 256, [&](int64_t p) {
+    this->AverageMaterial(groups_[size_t(p)], &points_[size_t(p)]);
+  });
 }
 
 std::vector<LightReconstruction::Share> RefinedMesh::Shares(int64_t point) const {
@@ -273,14 +293,16 @@ std::vector<LightReconstruction::Share> RefinedMesh::Shares(int64_t point) const
   return shares;
 }
 
-std::vector<Spectrum> RefinedMesh::Light(const LightReconstruction& light, int64_t* rays) const {
+std::vector<Spectrum> RefinedMesh::Light(const LightReconstruction& light, KeptTransfers* transfers,
+                                         int64_t* rays) const {
   std::vector<Spectrum> irradiance(points_.size());
   std::vector<int64_t> raysOfPoint(points_.size(), 0);
-  ParallelForEach(int64_t(points_.size()), 64, [&](int64_t p) {
+  const auto lightPoint = [&](int64_t p, KeptTransfers::Cursor* cursor) {
     const Point& point = points_[size_t(p)];
     irradiance[size_t(p)] =
-        light.At(point.position, this->Shares(p), &raysOfPoint[size_t(p)]).At(point.normal);
-  });
+        light.At(point.position, this->Shares(p), cursor, &raysOfPoint[size_t(p)]).At(point.normal);
+  };
+  transfers->ForEachPlace(int64_t(points_.size()), lightPoint);
   for (const int64_t cast : raysOfPoint) *rays += cast;
   return irradiance;
 }

@@ -47,6 +47,8 @@ class RefinedMesh {
 
   /// Again, after patches were split.
   void Triangulate();
+  /// Reflectance and emittance of the points by those that the faces have now.
+  void TakeMaterials();
 
   const std::vector<Point>& Points() const { return points_; }
   const std::vector<LeafTriangle>& Triangles() const { return triangles_; }
@@ -54,13 +56,16 @@ class RefinedMesh {
   const std::vector<std::array<int32_t, 3>>& PointsOfTriangles() const { return pointsOfTriangle_; }
 
   /// Irradiance at the points from the links, W/m2: mean over the leaves that meet there, by angle.
-  /// Adds the rays cast to `rays`.
-  std::vector<Spectrum> Light(const LightReconstruction& light, int64_t* rays) const;
+  /// Adds the transfers to the points that `transfers` does not know, a place a point, and the rays
+  /// cast to `rays`.
+  std::vector<Spectrum> Light(const LightReconstruction& light, KeptTransfers* transfers,
+                              int64_t* rays) const;
   /// The solution that has `irradiance` (W/m2) at its points.
   RadiositySolution Deliver(const std::vector<Spectrum>& irradiance) const;
 
  private:
   Point MakePoint(const Range& group) const;
+  void AverageMaterial(const Range& group, Point* point) const;
   std::vector<LightReconstruction::Share> Shares(int64_t point) const;
 
   ElementHierarchy* hierarchy_;

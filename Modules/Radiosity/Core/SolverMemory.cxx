@@ -63,6 +63,11 @@ bool SolverMemory::HasRoomForIteration(const std::vector<IterationRecord>& histo
                           NextGrowth(before.links, last.links));
 }
 
+bool SolverMemory::HasRoomToKeep(int64_t links) const {
+  return ceiling_.HasRoomFor((kDeliveryBytes + double(kKeptTriangleBytes)) * this->Triangles() +
+                             double(kKeptLinkBytes) * double(links));
+}
+
 bool SolverMemory::HasRoomForGather() const {
   return ceiling_.HasRoomFor(kGatherBytes * this->Triangles());
 }

@@ -14,6 +14,9 @@ namespace lambert {
 /// Bytes that an element takes with its light, its place among others and its patch, and a link
 /// with the head of its list; both with what vectors keep free (Documentation/Stages).
 constexpr int64_t kElementBytes = 720, kLinkBytes = 40;
+/// Bytes that are kept of a delivered triangle and of a link for another light of the same links,
+/// at most: the mesh, and the transfers to its points and to the corners of clusters.
+constexpr int64_t kKeptTriangleBytes = 600, kKeptLinkBytes = 256;
 
 class SolverMemory {
  public:
@@ -26,6 +29,9 @@ class SolverMemory {
   bool HasRoomFor(double elements, double links) const;
   /// Whether there is likely to be for another iteration of links: by how they grew in the last.
   bool HasRoomForIteration(const std::vector<IterationRecord>& history) const;
+  /// Whether there is for delivering the light of so many links and keeping the mesh and the
+  /// transfers to its points.
+  bool HasRoomToKeep(int64_t links) const;
   /// Whether there is for a final gather; for a round of cuts of the mesh that came out of one.
   bool HasRoomForGather() const;
   bool HasRoomForCuts(const RadiositySolution& delivered) const;

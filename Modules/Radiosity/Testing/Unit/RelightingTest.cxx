@@ -51,6 +51,42 @@ TEST(RelightingTest, IsLinearInTheEmission) {
   for (int band = 0; band < 3; ++band) EXPECT_NEAR(a[band] / b[band], 2, 0.01);
 }
 
+// What is kept of the shown light gives the bits that all made anew gives; no mesh is made again,
+// and of the transfers only those that were too faint for the old light.
+TEST(RelightingTest, KeepsTheTransfersOfItsLinks) {
+  ClusteredScene box(testing::DataScene("CornellBox"));
+  HierarchicalRadiosityOptions keeping = Links(4);
+  keeping.keepsTransfers = true;
+  HierarchicalRadiosity keeper(box.scene, box.tree, keeping);
+  HierarchicalRadiosity maker(box.scene, box.tree, Links(4));
+  for (HierarchicalRadiosity* solver : {&keeper, &maker}) {
+    solver->Run();
+    solver->Solution();
+  }
+  const SolverStatistics before = keeper.Statistics();
+  EXPECT_EQ(before.linkMeshes, 1);
+  EXPECT_GT(before.linkTransfers, 0);
+  keeper.Solution();
+  EXPECT_EQ(keeper.Statistics().linkTransfers, before.linkTransfers);
+
+  for (Spectrum& reflectance : box.scene.mesh.reflectance) reflectance = reflectance * 0.7f;
+  ASSERT_TRUE(keeper.Relight() && maker.Relight());
+  const RadiositySolution kept = keeper.Solution(), made = maker.Solution();
+  EXPECT_EQ(kept.irradiance, made.irradiance);
+  EXPECT_EQ(kept.radiosity, made.radiosity);
+  EXPECT_EQ(kept.mesh.reflectance, made.mesh.reflectance);
+  EXPECT_EQ(kept.mesh.positions, made.mesh.positions);
+  EXPECT_EQ(kept.inputIrradiance, made.inputIrradiance);
+  EXPECT_EQ(keeper.Statistics().linkMeshes, 1);
+  EXPECT_EQ(maker.Statistics().linkMeshes, 2);
+  EXPECT_LT(double(keeper.Statistics().linkTransfers), 1.1 * double(before.linkTransfers));
+
+  // Links that were refined are shown on a mesh of their own.
+  for (HierarchicalRadiosity* solver : {&keeper, &maker}) solver->Run();
+  EXPECT_EQ(keeper.Solution().irradiance, maker.Solution().irradiance);
+  EXPECT_EQ(keeper.Statistics().linkMeshes, 2);
+}
+
 // In a furnace of reflectance rho radiosity is emittance / (1 - rho). Links of a convex room have
 // form factors to within the scatter of their sums about 1, cut at 1.25.
 TEST(RelightingTest, KnowsTheFurnaceOfAnotherReflectance) {

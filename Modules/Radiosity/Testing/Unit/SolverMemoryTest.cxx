@@ -48,6 +48,31 @@ TEST(SolverMemoryTest, StatesWhatElementsAndLinksTake) {
   EXPECT_GT(share, 0.5);
 }
 
+// What stays of shown light for another one is at most what is said, and nothing stays under a
+// ceiling that has no room for it.
+TEST(SolverMemoryTest, StatesWhatKeptTransfersTake) {
+  const ClusteredScene box;
+  HierarchicalRadiosityOptions options = FineLinks(4);
+  options.keepsTransfers = true;
+  HierarchicalRadiosity solver(box.scene, box.tree, options);
+  solver.Run();
+  const double before = AllocatedBytes();
+  const int64_t triangles = solver.Solution().mesh.FaceCount();
+  const double kept = AllocatedBytes() - before;
+  const double stated =
+      double(kKeptTriangleBytes * triangles) + double(kKeptLinkBytes * solver.Statistics().Links());
+  EXPECT_LT(kept, stated);
+  EXPECT_GT(kept, 0.2 * stated);
+
+  options.memoryLimit = 1;
+  HierarchicalRadiosity limited(box.scene, box.tree, options);
+  limited.Run();
+  for (int64_t shown : {1, 2}) {
+    limited.Solution();
+    EXPECT_EQ(limited.Statistics().linkMeshes, shown);
+  }
+}
+
 TEST(SolverMemoryTest, EndsARunAtItsCeiling) {
   // Room for some of the six iterations.
   const ClusteredScene box;
