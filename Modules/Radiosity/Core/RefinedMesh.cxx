@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 #include "Common/Core/Parallel.h"
 #include "Reference/Core/VertexReceivers.h"
@@ -50,37 +51,61 @@ struct LeafIndex {
 using Corner = RefinedMesh::Corner;
 using Range = RefinedMesh::Range;
 
-std::vector<Corner> SortedCorners(const std::vector<LeafTriangle>& triangles,
+/// Of the point that a corner becomes: its vertex, surface and side.
+uint64_t KeyOf(const LeafTriangle& triangle, int32_t corner,
+               const std::vector<int32_t>& surfaceId) {
+  const uint64_t surfaceSide = 2 * uint64_t(surfaceId[size_t(triangle.face)]) + triangle.side;
+  return (surfaceSide << 32) | uint32_t(triangle.vertices[size_t(corner)]);
+}
+
+/// All corners by their vertices, those of a vertex by surface and side, then in the order of the
+/// triangles: counted, as vertices are numbered.
+std::vector<Corner> SortedCorners(const std::vector<LeafTriangle>& triangles, size_t vertexCount,
                                   const std::vector<int32_t>& surfaceId) {
+  std::vector<int32_t> begin(vertexCount + 1, 0);
+  for (const LeafTriangle& triangle : triangles) {
+    for (const int32_t vertex : triangle.vertices) ++begin[size_t(vertex) + 1];
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<int32_t> end(begin.begin(), begin.end() - 1);
   std::vector<Corner> corners(triangles.size() * 3);
-  ParallelForEach(int64_t(triangles.size()), 4096, [&](int64_t t) {
-    const LeafTriangle& triangle = triangles[size_t(t)];
-    const uint64_t surfaceSide = 2 * uint64_t(surfaceId[size_t(triangle.face)]) + triangle.side;
-    for (int c = 0; c < 3; ++c) {
-      corners[size_t(3 * t + c)] = {(surfaceSide << 32) | uint32_t(triangle.vertices[size_t(c)]),
-                                    int32_t(t), c};
+  for (size_t t = 0; t < triangles.size(); ++t) {
+    for (int32_t c = 0; c < 3; ++c) {
+      corners[size_t(end[size_t(triangles[t].vertices[size_t(c)])]++)] = {int32_t(t), c};
     }
+  }
+  const auto keyOf = [&](const Corner& c) {
+    return KeyOf(triangles[size_t(c.triangle)], c.corner, surfaceId);
+  };
+  ParallelForEach(int64_t(vertexCount), 4096, [&](int64_t v) {
+    std::stable_sort(corners.begin() + begin[size_t(v)], corners.begin() + begin[size_t(v) + 1],
+                     [&](const Corner& a, const Corner& b) { return keyOf(a) < keyOf(b); });
   });
-  std::sort(corners.begin(), corners.end());
   return corners;
 }
 
 /// Corners of the same point, points in the order in which triangles first name them: vertex
 /// numbers depend on when the leaves were triangulated before, this order does not.
-std::vector<Range> PointGroups(const std::vector<Corner>& corners) {
-  std::vector<Range> groups;
-  for (size_t i = 0; i < corners.size(); ++i) {
-    if (i > 0 && corners[i].key == corners[i - 1].key) {
-      groups.back().end = int64_t(i) + 1;
-    } else {
-      groups.push_back({int64_t(i), int64_t(i) + 1});
+std::vector<Range> PointGroups(const std::vector<Corner>& corners,
+                               const std::vector<LeafTriangle>& triangles,
+                               const std::vector<int32_t>& surfaceId) {
+  // The group that begins with a corner; empty where none does.
+  std::vector<Range> groupFrom(corners.size(), {0, 0});
+  size_t count = 0;
+  for (size_t begin = 0, end = 0; begin < corners.size(); begin = end, ++count) {
+    const Corner& first = corners[begin];
+    const uint64_t key = KeyOf(triangles[size_t(first.triangle)], first.corner, surfaceId);
+    for (end = begin + 1; end < corners.size(); ++end) {
+      const Corner& corner = corners[end];
+      if (KeyOf(triangles[size_t(corner.triangle)], corner.corner, surfaceId) != key) break;
     }
+    groupFrom[size_t(first.triangle) * 3 + size_t(first.corner)] = {int64_t(begin), int64_t(end)};
   }
-  std::sort(groups.begin(), groups.end(), [&](const Range& a, const Range& b) {
-    const Corner &first = corners[size_t(a.begin)], &second = corners[size_t(b.begin)];
-    return first.triangle != second.triangle ? first.triangle < second.triangle
-                                             : first.corner < second.corner;
-  });
+  std::vector<Range> groups;
+  groups.reserve(count);
+  for (const Range& group : groupFrom) {
+    if (group.end > 0) groups.push_back(group);
+  }
   return groups;
 }
 
@@ -111,9 +136,7 @@ float CornerAngle(const Vec3f& p, const Vec3f& a, const Vec3f& b) {
   return std::atan2(Length(Cross(u, v)), Dot(u, v));
 }
 
-int32_t VertexOf(const std::vector<Corner>& corners, const Range& group) {
-  return int32_t(corners[size_t(group.begin)].key & 0xffffffffu);
-}
+int32_t VertexOf(const RefinedMesh::Point& point) { return int32_t(point.key & 0xffffffffu); }
 
 /// Angle of a triangle at one of its corners, never quite zero.
 float AngleAt(const VertexReader& vertices, const LeafTriangle& triangle, int32_t corner) {
@@ -190,8 +213,9 @@ void RefinedMesh::Triangulate() {
 
   // Points: corners that agree in vertex, surface and side.
   const TriangleMesh& input = hierarchy_->GetScene().mesh;
-  corners_ = SortedCorners(triangles_, input.surfaceId);
-  groups_ = PointGroups(corners_);
+  const size_t vertices = input.positions.size() + hierarchy_->Leaves().Vertices().size();
+  corners_ = SortedCorners(triangles_, vertices, input.surfaceId);
+  groups_ = PointGroups(corners_, triangles_, input.surfaceId);
   points_.resize(groups_.size());
   pointsOfTriangle_.resize(triangles_.size());
   ParallelForEach(int64_t(groups_.size()), 256, [&](int64_t p) {
@@ -208,9 +232,10 @@ void RefinedMesh::Triangulate() {
 RefinedMesh::Point RefinedMesh::MakePoint(const Range& group) const {
   const TriangleMesh& input = hierarchy_->GetScene().mesh;
   const VertexReader vertices{input, hierarchy_->Leaves().Vertices()};
-  const int32_t vertex = VertexOf(corners_, group);
+  const Corner& first = corners_[size_t(group.begin)];
   Point point;
-  point.key = corners_[size_t(group.begin)].key;
+  point.key = KeyOf(triangles_[size_t(first.triangle)], first.corner, input.surfaceId);
+  const int32_t vertex = VertexOf(point);
   point.position = vertices.Position(vertex);
   float largest = -1;
   for (int64_t i = group.begin; i < group.end; ++i) {
@@ -332,7 +357,7 @@ RadiositySolution RefinedMesh::Deliver(const std::vector<Spectrum>& irradiance) 
   // The input's own points take the brighter of their sides.
   solution.inputIrradiance.assign(input.positions.size(), {});
   for (size_t p = 0; p < points_.size(); ++p) {
-    const int32_t vertex = VertexOf(corners_, groups_[p]);
+    const int32_t vertex = VertexOf(points_[p]);
     if (vertex >= input.PointCount()) continue;
     Spectrum& brightest = solution.inputIrradiance[size_t(vertex)];
     if (Luminance(irradiance[p]) > Luminance(brightest)) brightest = irradiance[p];

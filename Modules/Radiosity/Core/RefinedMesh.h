@@ -26,16 +26,9 @@ class RefinedMesh {
     Vec2f uv;
     Spectrum reflectance, emittance;  ///< means over the faces that meet here
   };
-  /// A corner of a leaf triangle, by the point that it becomes.
+  /// A corner of a leaf triangle.
   struct Corner {
-    uint64_t key;
-    int32_t triangle;
-    int32_t corner;
-    bool operator<(const Corner& c) const {
-      return key != c.key             ? key < c.key
-             : triangle != c.triangle ? triangle < c.triangle
-                                      : corner < c.corner;
-    }
+    int32_t triangle, corner;
   };
   struct Range {
     int64_t begin, end;
@@ -77,7 +70,7 @@ class RefinedMesh {
   std::vector<Inside> insideOfPoint_;
   std::vector<LeafTriangle> triangles_;
   std::vector<int32_t> leaves_;  ///< per triangle: its leaf element; -1 for none
-  std::vector<Corner> corners_;  ///< sorted
+  std::vector<Corner> corners_;  ///< by vertex, surface and side
   std::vector<Range> groups_;    ///< per point: of corners_
   std::vector<Point> points_;
   std::vector<std::array<int32_t, 3>> pointsOfTriangle_;

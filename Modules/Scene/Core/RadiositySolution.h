@@ -31,8 +31,8 @@ struct SolverStatistics {
           patchPatch = 0, fromLights = 0;
   int64_t linksAtFloor = 0;  ///< links that the element floor kept from being refined
   int64_t rays = 0;
-  /// Of the light of links, wherever it was shown: meshes made, and transfers to their points; those
-  /// that were kept are not made again.
+  /// Of the light of links, wherever it was shown: meshes made, and transfers to their points;
+  /// those that were kept are not made again.
   int64_t linkMeshes = 0, linkTransfers = 0;
   Spectrum emitted, absorbed, escaped;  ///< W; emitted = absorbed - covered + escaped
   /// W of the absorbed, on faces under others nearer than what rays skip: there light counts twice.
