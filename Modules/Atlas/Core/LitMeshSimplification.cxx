@@ -9,6 +9,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "Common/Core/Error.h"
@@ -31,13 +32,16 @@ struct Traits : OpenMesh::DefaultTraits {
 using Halfedges = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 using CollapseInfo = OpenMesh::Decimater::CollapseInfoT<Halfedges>;
 
-/// What lies in one face of the solved mesh of the triangles about a point that goes.
+/// What lies in one face of the solved mesh of the triangles about a place that goes. Points are
+/// those of the solution: two surfaces that meet there have their own.
 struct Fan {
   int64_t key = 0;                           ///< of the face and its side
+  int32_t from = -1, to = -1;                ///< point that goes, and that which takes over
   std::vector<int32_t> triangles;            ///< of the halfedges, that will have another corner
   std::vector<std::array<int32_t, 2>> rims;  ///< of each: its other corners, counter-clockwise
-  std::vector<int32_t> ring;                 ///< all points about, but for the one that takes over
+  std::vector<int32_t> ring;                 ///< all points about, but for `to`
   double deviation = 0;                      ///< largest so far, W/m2
+  bool isJoined = true;                      ///< its triangles share their points
 };
 
 double LargestBand(const Spectrum& light) {
@@ -76,8 +80,9 @@ class SimplifiedLight {
   SimplifiedLight(const RadiositySolution& solution, double tolerance);
 
   Halfedges halfedges;
-  std::vector<int32_t> faceOf;  ///< per face of the halfedges: that of the solution
-  std::vector<int32_t> apart;   ///< faces of the solution that no manifold takes
+  std::vector<int32_t> faceOf;                  ///< per face of the halfedges: that of the solution
+  std::vector<std::array<int32_t, 3>> corners;  ///< of each: its points now
+  std::vector<int32_t> apart;                   ///< faces of the solution that no manifold takes
 
   /// What becomes of the fans about `ci.v0` when `ci.v1` takes its place: with deviations as they
   /// will be. None where the surface would move or turn, or light change too much.
@@ -86,11 +91,17 @@ class SimplifiedLight {
   double Cost(const CollapseInfo& ci, const std::vector<Fan>& fans) const;
   void Accept(const std::vector<Fan>& fans) {
     for (const Fan& fan : fans) {
-      for (const int32_t triangle : fan.triangles) deviation_[size_t(triangle)] = fan.deviation;
+      for (const int32_t triangle : fan.triangles) {
+        deviation_[size_t(triangle)] = fan.deviation;
+        auto& points = corners[size_t(triangle)];
+        std::replace(points.begin(), points.end(), fan.from, fan.to);
+      }
     }
   }
 
  private:
+  void Weld();
+  void AddFaces();
   void LockSeams();
   int64_t Key(Halfedges::FaceHandle face) const {
     if (!face.is_valid()) return -1;
@@ -99,15 +110,27 @@ class SimplifiedLight {
   }
   Vec3d At(int32_t point) const { return Vec3d(solution_.mesh.positions[size_t(point)]); }
   const Spectrum& Light(int32_t point) const { return solution_.irradiance[size_t(point)]; }
+  Vec3d Where(Halfedges::VertexHandle place) const {
+    const OpenMesh::Vec3d& p = halfedges.point(place);
+    return {p[0], p[1], p[2]};
+  }
+  /// The point that a face has at a place.
+  int32_t PointAt(Halfedges::FaceHandle face, Halfedges::VertexHandle place) const {
+    for (const int32_t point : corners[size_t(face.idx())]) {
+      if (placeOf_[size_t(point)] == place.idx()) return point;
+    }
+    return -1;
+  }
   bool IsOnStraightBorder(const CollapseInfo& ci) const;
   std::vector<Fan> FansAbout(const CollapseInfo& ci) const;
-  bool KeepsItsShape(const Fan& fan, const Vec3d& from, const Vec3d& to) const;
-  double Change(const Fan& fan, int32_t from, int32_t to) const;
-  double Allowed(const Fan& fan, int32_t to) const;
+  bool KeepsItsShape(const Fan& fan) const;
+  double Change(const Fan& fan) const;
+  double Allowed(const Fan& fan) const;
 
   const RadiositySolution& solution_;
   double tolerance_, diagonal_;
   double meanLight_ = 0;           ///< W/m2
+  std::vector<int32_t> placeOf_;   ///< per point of the solution: vertex of the halfedges
   std::vector<double> deviation_;  ///< per face of the halfedges, W/m2
 };
 
@@ -126,43 +149,60 @@ SimplifiedLight::SimplifiedLight(const RadiositySolution& solution, double toler
   }
   meanLight_ = area > 0 ? power / area : 0;
 
-  // Half-edges of what is manifold; OpenMesh would print what is not.
-  for (int32_t point = 0; point < int32_t(mesh.PointCount()); ++point) {
-    const Vec3d p = At(point);
-    halfedges.add_vertex({p.x, p.y, p.z});
+  Weld();
+  AddFaces();
+  LockSeams();
+}
+
+/// One vertex for all points of one side at a place: borders of surfaces are simplified together.
+void SimplifiedLight::Weld() {
+  const TriangleMesh& mesh = solution_.mesh;
+  std::vector<uint8_t> side(mesh.positions.size(), kFront);
+  for (size_t face = 0; face < mesh.triangles.size(); ++face) {
+    for (const int32_t point : mesh.triangles[face]) side[size_t(point)] = solution_.side[face];
   }
+  std::map<std::tuple<uint8_t, float, float, float>, int32_t> places;
+  for (size_t point = 0; point < mesh.positions.size(); ++point) {
+    const Vec3f& p = mesh.positions[point];
+    const auto [place, isNew] = places.try_emplace({side[point], p.x, p.y, p.z}, -1);
+    if (isNew) place->second = halfedges.add_vertex({p.x, p.y, p.z}).idx();
+    placeOf_.push_back(place->second);
+  }
+}
+
+/// Half-edges of what is manifold; OpenMesh would print what is not.
+void SimplifiedLight::AddFaces() {
   omerr().disable();
-  for (int32_t face = 0; face < int32_t(mesh.FaceCount()); ++face) {
-    const auto& t = mesh.triangles[size_t(face)];
-    using Point = Halfedges::VertexHandle;
-    const bool isFlat = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-    if (!isFlat && halfedges.add_face(Point(t[0]), Point(t[1]), Point(t[2])).is_valid()) {
+  for (int32_t face = 0; face < int32_t(solution_.mesh.FaceCount()); ++face) {
+    const auto& t = solution_.mesh.triangles[size_t(face)];
+    std::array<Halfedges::VertexHandle, 3> v;
+    for (size_t c = 0; c < 3; ++c) v[c] = Halfedges::VertexHandle(placeOf_[size_t(t[c])]);
+    const bool isFlat = v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
+    if (!isFlat && halfedges.add_face(v[0], v[1], v[2]).is_valid()) {
       faceOf.push_back(face);
+      corners.push_back(t);
     } else {
       apart.push_back(face);
     }
   }
   omerr().enable();
   deviation_.assign(faceOf.size(), 0);
-  LockSeams();
 }
 
-/// Points on a border where another border has its own stay, and all that other triangles hold.
+/// Places on a border that another border lies on stay, and all that other triangles hold.
 void SimplifiedLight::LockSeams() {
-  std::map<std::array<float, 3>, std::vector<int32_t>> borders;
-  for (const auto point : halfedges.vertices()) {
-    const Vec3f& p = solution_.mesh.positions[size_t(point.idx())];
-    if (halfedges.is_boundary(point)) borders[{p.x, p.y, p.z}].push_back(point.idx());
+  std::map<std::array<double, 3>, std::vector<Halfedges::VertexHandle>> borders;
+  for (const auto place : halfedges.vertices()) {
+    const OpenMesh::Vec3d& p = halfedges.point(place);
+    if (halfedges.is_boundary(place)) borders[{p[0], p[1], p[2]}].push_back(place);
   }
-  for (const auto& [place, points] : borders) {
-    if (points.size() < 2) continue;
-    for (const int32_t point : points) {
-      halfedges.status(Halfedges::VertexHandle(point)).set_locked(true);
-    }
+  for (const auto& border : borders) {
+    if (border.second.size() < 2) continue;
+    for (const auto place : border.second) halfedges.status(place).set_locked(true);
   }
   for (const int32_t face : apart) {
     for (const int32_t point : solution_.mesh.triangles[size_t(face)]) {
-      halfedges.status(Halfedges::VertexHandle(point)).set_locked(true);
+      halfedges.status(Halfedges::VertexHandle(placeOf_[size_t(point)])).set_locked(true);
     }
   }
 }
@@ -177,17 +217,17 @@ bool SimplifiedLight::IsOnStraightBorder(const CollapseInfo& ci) const {
     const auto opposite = halfedges.opposite_halfedge_handle(spoke);
     if (Key(halfedges.face_handle(spoke)) == Key(halfedges.face_handle(opposite))) continue;
     ++borders;
-    const int32_t end = halfedges.to_vertex_handle(spoke).idx();
-    if (end == ci.v1.idx()) {
+    const auto end = halfedges.to_vertex_handle(spoke);
+    if (end == ci.v1) {
       isAlong = true;
     } else {
-      before = At(end);
+      before = Where(end);
     }
   }
   if (borders == 0) return true;
   if (borders != 2 || !isAlong) return false;
-  const Vec3d p = At(ci.v0.idx()), line = At(ci.v1.idx()) - before;
-  return Dot(p - before, line) > 0 && Dot(At(ci.v1.idx()) - p, line) > 0 &&
+  const Vec3d p = Where(ci.v0), line = Where(ci.v1) - before;
+  return Dot(p - before, line) > 0 && Dot(Where(ci.v1) - p, line) > 0 &&
          Length(Cross(p - before, line)) <= kFloor * diagonal_ * Length(line);
 }
 
@@ -203,11 +243,22 @@ std::vector<Fan> SimplifiedLight::FansAbout(const CollapseInfo& ci) const {
       fan->key = key;
     }
     fan->deviation = std::max(fan->deviation, deviation_[size_t(face.idx())]);
-    const int32_t a = halfedges.to_vertex_handle(spoke).idx();
-    const int32_t b = halfedges.to_vertex_handle(halfedges.next_halfedge_handle(spoke)).idx();
-    for (const int32_t point : {a, b}) {
-      const bool isKnown = std::find(fan->ring.begin(), fan->ring.end(), point) != fan->ring.end();
-      if (point != ci.v1.idx() && !isKnown) fan->ring.push_back(point);
+
+    // Its points, which the triangles of the fan share.
+    const auto first = halfedges.to_vertex_handle(spoke);
+    const auto second = halfedges.to_vertex_handle(halfedges.next_halfedge_handle(spoke));
+    const int32_t a = PointAt(face, first), b = PointAt(face, second);
+    for (const int32_t point : {a, b, PointAt(face, ci.v0)}) {
+      const int32_t place = placeOf_[size_t(point)];
+      int32_t* known = place == ci.v0.idx()   ? &fan->from
+                       : place == ci.v1.idx() ? &fan->to
+                                              : nullptr;
+      for (int32_t& other : fan->ring) {
+        if (placeOf_[size_t(other)] == place) known = &other;
+      }
+      if (!known) fan->ring.push_back(point);
+      if (known && *known < 0) *known = point;
+      if (known && *known != point) fan->isJoined = false;
     }
     if (face == ci.fl || face == ci.fr) continue;
     fan->triangles.push_back(face.idx());
@@ -217,7 +268,8 @@ std::vector<Fan> SimplifiedLight::FansAbout(const CollapseInfo& ci) const {
 }
 
 /// No triangle of the fan turns over or becomes a sliver.
-bool SimplifiedLight::KeepsItsShape(const Fan& fan, const Vec3d& from, const Vec3d& to) const {
+bool SimplifiedLight::KeepsItsShape(const Fan& fan) const {
+  const Vec3d from = At(fan.from), to = At(fan.to);
   double slimmest = kSlimmest;
   for (const auto& [a, b] : fan.rims) slimmest = std::min(slimmest, Slimness(from, At(a), At(b)));
   for (const auto& [a, b] : fan.rims) {
@@ -227,10 +279,11 @@ bool SimplifiedLight::KeepsItsShape(const Fan& fan, const Vec3d& from, const Vec
   return !fan.rims.empty();
 }
 
-/// The most by which light changes in the fan, W/m2, when `to` takes the place of `from`: both are
+/// The most by which light changes in the fan, W/m2, when `to` takes the place of `from`: it is
 /// linear between their edges, so that it is at the point that goes, or where an edge that it had
 /// crosses one that comes.
-double SimplifiedLight::Change(const Fan& fan, int32_t from, int32_t to) const {
+double SimplifiedLight::Change(const Fan& fan) const {
+  const int32_t from = fan.from, to = fan.to;
   const Vec3d p = At(from), q = At(to);
   const Plane plane(Cross(At(fan.rims[0][0]) - p, At(fan.rims[0][1]) - p));
 
@@ -263,8 +316,8 @@ double SimplifiedLight::Change(const Fan& fan, int32_t from, int32_t to) const {
 }
 
 /// W/m2: of the darkest corner that the fan will have.
-double SimplifiedLight::Allowed(const Fan& fan, int32_t to) const {
-  double darkest = double(Light(to).Mean());
+double SimplifiedLight::Allowed(const Fan& fan) const {
+  double darkest = double(Light(fan.to).Mean());
   for (const int32_t point : fan.ring) darkest = std::min(darkest, double(Light(point).Mean()));
   return tolerance_ * std::max(darkest, meanLight_);
 }
@@ -273,9 +326,9 @@ std::optional<std::vector<Fan>> SimplifiedLight::Replaced(const CollapseInfo& ci
   if (!IsOnStraightBorder(ci)) return {};
   std::vector<Fan> fans = FansAbout(ci);
   for (Fan& fan : fans) {
-    if (!KeepsItsShape(fan, At(ci.v0.idx()), At(ci.v1.idx()))) return {};
-    fan.deviation += Change(fan, ci.v0.idx(), ci.v1.idx());
-    if (!(fan.deviation <= Allowed(fan, ci.v1.idx()))) return {};
+    if (!fan.isJoined || fan.to < 0 || !KeepsItsShape(fan)) return {};
+    fan.deviation += Change(fan);
+    if (!(fan.deviation <= Allowed(fan))) return {};
   }
   return fans;
 }
@@ -283,9 +336,9 @@ std::optional<std::vector<Fan>> SimplifiedLight::Replaced(const CollapseInfo& ci
 double SimplifiedLight::Cost(const CollapseInfo& ci, const std::vector<Fan>& fans) const {
   double cost = 0;
   for (const Fan& fan : fans) {
-    if (fan.deviation > 0) cost = std::max(cost, fan.deviation / Allowed(fan, ci.v1.idx()));
+    if (fan.deviation > 0) cost = std::max(cost, fan.deviation / Allowed(fan));
   }
-  return cost + Length(At(ci.v1.idx()) - At(ci.v0.idx())) / diagonal_;
+  return cost + Length(Where(ci.v1) - Where(ci.v0)) / diagonal_;
 }
 
 /// Lets OpenMesh's decimater ask what a collapse does to the light.
@@ -372,10 +425,7 @@ RadiositySolution WhatIsLeft(const RadiositySolution& solution, const Simplified
     const int32_t old = light.faceOf[size_t(face.idx())];
     if (light.halfedges.status(face).deleted()) continue;
     faces.push_back(old);
-    int corner = 0;
-    for (const auto point : light.halfedges.fv_range(face)) {
-      turned.mesh.triangles[size_t(old)][size_t(corner++)] = point.idx();
-    }
+    turned.mesh.triangles[size_t(old)] = light.corners[size_t(face.idx())];
   }
   std::sort(faces.begin(), faces.end());
   return Part(turned, faces);

@@ -25,11 +25,12 @@ struct LitMeshSimplificationStatistics {
 /// Takes points out of `solution` while the light that is interpolated between those left stays
 /// within the tolerance, and the surface where it is: a point goes only inside one face of the
 /// solved mesh, along the straight edge between two, or along a free one. Corners of that mesh
-/// stay, and so do points on the border of a surface where another one has its own: borders stay
-/// closed. Points that are left keep all that they had, triangles their face, side and materials;
-/// `leafId` is empty, since a triangle then spans several leaves. Triangles that are no part of a
-/// manifold stay as they are. The result does not depend on threads. Throws Error for a tolerance
-/// out of range; Cancelled.
+/// stay. Borders stay closed: two surfaces that meet in an edge lose a point of it together, where
+/// light allows it on both; where more meet, or two are wound against each other, points of the
+/// edge stay. Points that are left keep all that they had, triangles their face, side and
+/// materials; `leafId` is empty, since a triangle then spans several leaves. Triangles that are no
+/// part of a manifold stay as they are. The result does not depend on threads. Throws Error for a
+/// tolerance out of range; Cancelled.
 RadiositySolution SimplifyLitMesh(const RadiositySolution& solution,
                                   const LitMeshSimplificationOptions& options = {},
                                   LitMeshSimplificationStatistics* statistics = nullptr,

@@ -140,21 +140,54 @@ TEST(LitMeshSimplification, KeepsToTheToleranceEverywhere) {
   }
 }
 
-TEST(LitMeshSimplification, LeavesBordersClosed) {
-  // Two walls, the second turned up to stand on the edge y = 0 of the first.
+/// Two walls with points of their own: one lies, the other stands on its edge y = 0.
+RadiositySolution Corner(int n, const LightAt& lying, const LightAt& standing) {
   RadiositySolution room;
-  const int n = 8;
-  const auto even = [](float, float) { return Spectrum(1); };
-  AddWall(&room, n, even);
-  const size_t second = room.mesh.positions.size();
-  AddWall(&room, n, even);
-  for (size_t point = second; point < room.mesh.positions.size(); ++point) {
+  AddWall(&room, n, lying);
+  const size_t points = room.mesh.positions.size(), triangles = room.mesh.triangles.size();
+  AddWall(&room, n, standing);
+  for (size_t point = points; point < room.mesh.positions.size(); ++point) {
     std::swap(room.mesh.positions[point].y, room.mesh.positions[point].z);
   }
+  for (size_t face = triangles; face < room.mesh.triangles.size(); ++face) {
+    std::swap(room.mesh.triangles[face][1], room.mesh.triangles[face][2]);
+  }
   room.mesh.Complete();
+  return room;
+}
+
+TEST(LitMeshSimplification, LeavesBordersClosed) {
+  // Even light on both sides of the corner, and a shadow across one of them.
+  const int n = 16;
+  const auto even = [](float, float) { return Spectrum(1); };
+  const auto shadow = [](float x, float) { return Spectrum(x < 0.5f ? 0.2f : 1); };
+  EXPECT_EQ(SimplifyLitMesh(Corner(n, even, even), {0.05}).mesh.FaceCount(), 4);
+  const RadiositySolution simple = SimplifyLitMesh(Corner(n, even, shadow), {0.05});
+  std::vector<float> lying, standing;
+  for (size_t face = 0; face < simple.mesh.triangles.size(); ++face) {
+    for (const int32_t corner : simple.mesh.triangles[face]) {
+      const Vec3f& p = simple.mesh.positions[size_t(corner)];
+      if (p.y == 0 && p.z == 0) (simple.inputFaceId[face] < 2 ? lying : standing).push_back(p.x);
+    }
+  }
+  // Where one has a point on their edge the other has one, too.
+  EXPECT_EQ(std::set<float>(lying.begin(), lying.end()),
+            std::set<float>(standing.begin(), standing.end()));
+  EXPECT_LT(std::set<float>(lying.begin(), lying.end()).size(), size_t(n) / 2);
+  EXPECT_GE(std::set<float>(lying.begin(), lying.end()).size(), 4u);  // Ends and the shadow's.
+}
+
+TEST(LitMeshSimplification, LeavesBordersThatDoNotJoin) {
+  // The same with the standing wall wound the other way: no manifold has both.
+  const int n = 8;
+  const auto even = [](float, float) { return Spectrum(1); };
+  RadiositySolution room = Corner(n, even, even);
+  for (size_t face = 0; face < room.mesh.triangles.size(); ++face) {
+    if (room.inputFaceId[face] < 2) continue;
+    std::swap(room.mesh.triangles[face][1], room.mesh.triangles[face][2]);
+  }
   const RadiositySolution simple = SimplifyLitMesh(room, {0.05});
-  EXPECT_LT(simple.mesh.FaceCount(), room.mesh.FaceCount() / 3);
-  // Both keep every point of the edge that they share.
+  EXPECT_LT(simple.mesh.FaceCount(), room.mesh.FaceCount() / 2);
   int onEdge = 0;
   for (const Vec3f& p : simple.mesh.positions) onEdge += p.y == 0 && p.z == 0;
   EXPECT_EQ(onEdge, 2 * (n + 1));
