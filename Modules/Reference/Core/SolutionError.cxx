@@ -108,16 +108,21 @@ std::vector<Place> WithoutDarkPlaces(const std::vector<Place>& places, const Sol
   return kept;
 }
 
-/// True where `p` lies on the face, or nearer to it than `far` by height and by every edge.
+/// True where `p` lies on the face, or nearer to it than `far`.
 bool LiesOn(const TriangleMesh& mesh, int32_t face, const Vec3f& p, float far) {
+  // Near one of its edges: all that needs to be known of a face whose normal is rounding.
   const Vec3f normal = mesh.FrontNormal(face);
+  bool isInside = true;
   for (int c = 0; c < 3; ++c) {
     const Vec3f offset = p - mesh.Corner(face, c);
-    const Vec3f edge = Normalize(mesh.Corner(face, (c + 1) % 3) - mesh.Corner(face, c));
-    if (std::abs(Dot(offset, normal)) > far) return false;
-    if (Dot(Cross(edge, offset), normal) < -far) return false;
+    const Vec3f edge = mesh.Corner(face, (c + 1) % 3) - mesh.Corner(face, c);
+    const float square = LengthSquared(edge);
+    const float t = square > 0 ? std::min(1.f, std::max(0.f, Dot(offset, edge) / square)) : 0;
+    if (LengthSquared(offset - edge * t) <= far * far) return true;
+    isInside =
+        isInside && std::abs(Dot(offset, normal)) <= far && Dot(Cross(edge, offset), normal) >= 0;
   }
-  return true;
+  return isInside;
 }
 
 Comparison Compare(const Spectrum& delivered, const IrradianceEstimate& reference) {
