@@ -2,8 +2,8 @@
 
 #include "Atlas/Core/RadiosityAtlas.h"
 #include "Clustering/vtkClusterTreeAdapter.h"
-#include "Common/Core/Error.h"
 #include "vtkAtlasAdapter.h"
+#include "vtkCoreShell.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -35,20 +35,11 @@ int vtkRadiosityAtlas::FillInputPortInformation(int port, vtkInformation* inform
   return 1;
 }
 
-#define lambertOptionMacro(name, type, member)    \
-  void vtkRadiosityAtlas::Set##name(type value) { \
-    if (this->Options->member != value) {         \
-      this->Options->member = value;              \
-      this->Modified();                           \
-    }                                             \
-  }                                               \
-  type vtkRadiosityAtlas::Get##name() { return this->Options->member; }
-lambertOptionMacro(Stretch, double, stretch);
-lambertOptionMacro(PageSize, int, pageSize);
-lambertOptionMacro(Pages, int, pages);
-lambertOptionMacro(TexelSize, double, texelSize);
-lambertOptionMacro(Padding, int, padding);
-#undef lambertOptionMacro
+lambertOptionMacro(vtkRadiosityAtlas, Stretch, double, stretch);
+lambertOptionMacro(vtkRadiosityAtlas, PageSize, int, pageSize);
+lambertOptionMacro(vtkRadiosityAtlas, Pages, int, pages);
+lambertOptionMacro(vtkRadiosityAtlas, TexelSize, double, texelSize);
+lambertOptionMacro(vtkRadiosityAtlas, Padding, int, padding);
 
 void vtkRadiosityAtlas::TakeIn(vtkPolyData* mesh, vtkTable* tree, const Progress& progress) {
   const bool hasTree = tree && tree->GetNumberOfRows() > 0;
@@ -70,12 +61,7 @@ void vtkRadiosityAtlas::TakeIn(vtkPolyData* mesh, vtkTable* tree, const Progress
 
 int vtkRadiosityAtlas::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                    vtkInformationVector* outputs) {
-  const auto progress = [this](double fraction, const char* stage) {
-    this->SetProgressText(stage);
-    this->UpdateProgress(fraction);
-    return !this->GetAbortExecute();
-  };
-  try {
+  return lambert::RunCore(this, [&](const lambert::ProgressCallback& progress) {
     // Faces and charts, where they are not those of the last run.
     this->TakeIn(vtkPolyData::GetData(inputs[0]), vtkTable::GetData(inputs[1]), progress);
     Kept& last = *this->Last;
@@ -93,13 +79,7 @@ int vtkRadiosityAtlas::RequestData(vtkInformation*, vtkInformationVector** input
     this->DeliveredTexelSize = atlas.texelSize;
     this->Utilisation = atlas.utilisation;
     lambert::PolyDataFromAtlas(atlas, last.Scene, vtkPolyData::GetData(outputs));
-    return 1;
-  } catch (const lambert::Cancelled&) {
-    return 1;  // An abort is no error; nothing is delivered.
-  } catch (const std::exception& error) {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+  });
 }
 
 void vtkRadiosityAtlas::PrintSelf(ostream& os, vtkIndent indent) {

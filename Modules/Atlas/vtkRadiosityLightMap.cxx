@@ -1,8 +1,8 @@
 #include "vtkRadiosityLightMap.h"
 
 #include "Atlas/Core/LightMap.h"
-#include "Common/Core/Error.h"
 #include "vtkAtlasAdapter.h"
+#include "vtkCoreShell.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiBlockDataSet.h"
@@ -21,12 +21,7 @@ int vtkRadiosityLightMap::FillInputPortInformation(int, vtkInformation* informat
 
 int vtkRadiosityLightMap::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                       vtkInformationVector* outputs) {
-  const auto progress = [this](double fraction, const char* stage) {
-    this->SetProgressText(stage);
-    this->UpdateProgress(fraction);
-    return !this->GetAbortExecute();
-  };
-  try {
+  return lambert::RunCore(this, [&](const lambert::ProgressCallback& progress) {
     lambert::TriangleMesh mesh;
     const lambert::RadiosityAtlas atlas =
         lambert::AtlasFromPolyData(vtkPolyData::GetData(inputs[0]), &mesh);
@@ -41,13 +36,7 @@ int vtkRadiosityLightMap::RequestData(vtkInformation*, vtkInformationVector** in
     this->LargestSeamBefore = map.before.largest;
     this->LargestSeamAfter = map.after.largest;
     lambert::PagesFromLightMap(map, vtkMultiBlockDataSet::GetData(outputs));
-    return 1;
-  } catch (const lambert::Cancelled&) {
-    return 1;  // An abort is no error; nothing is delivered.
-  } catch (const std::exception& error) {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+  });
 }
 
 void vtkRadiosityLightMap::PrintSelf(ostream& os, vtkIndent indent) {

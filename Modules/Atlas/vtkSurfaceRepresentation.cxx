@@ -2,8 +2,8 @@
 
 #include "Atlas/Core/SurfaceRepresentation.h"
 #include "Clustering/vtkClusterTreeAdapter.h"
-#include "Common/Core/Error.h"
 #include "vtkAtlasAdapter.h"
+#include "vtkCoreShell.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
@@ -46,21 +46,13 @@ int vtkSurfaceRepresentation::FillOutputPortInformation(int port, vtkInformation
 
 //------------------------------------------------------------------------------
 // Options of the algorithms, forwarded.
-#define lambertOptionMacro(name, type, option)           \
-  void vtkSurfaceRepresentation::Set##name(type value) { \
-    if (this->Options->option != value) {                \
-      this->Options->option = value;                     \
-      this->Modified();                                  \
-    }                                                    \
-  }                                                      \
-  type vtkSurfaceRepresentation::Get##name() { return this->Options->option; }
-lambertOptionMacro(IntroducedTriangles, vtkIdType, Choice.introducedTriangles);
-lambertOptionMacro(Stretch, double, Atlas.stretch);
-lambertOptionMacro(PageSize, int, Atlas.pageSize);
-lambertOptionMacro(Pages, int, Atlas.pages);
-lambertOptionMacro(TexelSize, double, Atlas.texelSize);
-lambertOptionMacro(Padding, int, Atlas.padding);
-#undef lambertOptionMacro
+lambertOptionMacro(vtkSurfaceRepresentation, IntroducedTriangles, vtkIdType,
+                   Choice.introducedTriangles);
+lambertOptionMacro(vtkSurfaceRepresentation, Stretch, double, Atlas.stretch);
+lambertOptionMacro(vtkSurfaceRepresentation, PageSize, int, Atlas.pageSize);
+lambertOptionMacro(vtkSurfaceRepresentation, Pages, int, Atlas.pages);
+lambertOptionMacro(vtkSurfaceRepresentation, TexelSize, double, Atlas.texelSize);
+lambertOptionMacro(vtkSurfaceRepresentation, Padding, int, Atlas.padding);
 
 void vtkSurfaceRepresentation::SetRepresentation(const std::string& material, int kind) {
   if (kind < AUTOMATIC || kind > LIGHT_MAP) {
@@ -104,12 +96,7 @@ void FillCosts(const std::vector<lambert::SurfaceCost>& surfaces, vtkTable* tabl
 
 int vtkSurfaceRepresentation::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                           vtkInformationVector* outputs) {
-  const auto progress = [this](double fraction, const char* stage) {
-    this->SetProgressText(stage);
-    this->UpdateProgress(fraction);
-    return !this->GetAbortExecute();
-  };
-  try {
+  return lambert::RunCore(this, [&](const lambert::ProgressCallback& progress) {
     lambert::Scene scene = lambert::SceneFromPolyData(vtkPolyData::GetData(inputs[0]));
     const lambert::ClusterTree tree = lambert::ClusterTreeFromTable(vtkTable::GetData(inputs[1]));
     lambert::RepresentationOptions choice = this->Options->Choice;
@@ -123,13 +110,7 @@ int vtkSurfaceRepresentation::RequestData(vtkInformation*, vtkInformationVector*
                                           vtkPolyData::GetData(outputs, 0));
     lambert::PagesFromLightMap(represented.map, vtkMultiBlockDataSet::GetData(outputs, 1));
     FillCosts(represented.surfaces, vtkTable::GetData(outputs, 2));
-    return 1;
-  } catch (const lambert::Cancelled&) {
-    return 1;  // An abort is no error; nothing is delivered.
-  } catch (const std::exception& error) {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+  });
 }
 
 void vtkSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent) {

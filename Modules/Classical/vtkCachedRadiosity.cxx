@@ -1,6 +1,7 @@
 #include "vtkCachedRadiosity.h"
 
 #include "Classical/Core/CachedRadiosity.h"
+#include "vtkCoreShell.h"
 #include "vtkObjectFactory.h"
 
 vtkStandardNewMacro(vtkCachedRadiosity);
@@ -9,21 +10,12 @@ vtkCachedRadiosity::vtkCachedRadiosity() : Options(new lambert::CachedRadiosityO
 
 vtkCachedRadiosity::~vtkCachedRadiosity() = default;
 
-#define lambertOptionMacro(name, type, member)     \
-  void vtkCachedRadiosity::Set##name(type value) { \
-    if (this->Options->member != value) {          \
-      this->Options->member = value;               \
-      this->Modified();                            \
-    }                                              \
-  }                                                \
-  type vtkCachedRadiosity::Get##name() { return this->Options->member; }
-lambertOptionMacro(ElementSize, double, elementSize);
-lambertOptionMacro(OutputSize, double, outputSize);
-lambertOptionMacro(Paths, int, paths);
-lambertOptionMacro(GatherRays, int, gatherRays);
-lambertOptionMacro(EmitterRays, int, emitterRays);
-lambertOptionMacro(Seed, vtkTypeUInt64, seed);
-#undef lambertOptionMacro
+lambertOptionMacro(vtkCachedRadiosity, ElementSize, double, elementSize);
+lambertOptionMacro(vtkCachedRadiosity, OutputSize, double, outputSize);
+lambertOptionMacro(vtkCachedRadiosity, Paths, int, paths);
+lambertOptionMacro(vtkCachedRadiosity, GatherRays, int, gatherRays);
+lambertOptionMacro(vtkCachedRadiosity, EmitterRays, int, emitterRays);
+lambertOptionMacro(vtkCachedRadiosity, Seed, vtkTypeUInt64, seed);
 
 int vtkCachedRadiosity::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                     vtkInformationVector* outputs) {

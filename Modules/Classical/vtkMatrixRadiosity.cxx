@@ -1,6 +1,7 @@
 #include "vtkMatrixRadiosity.h"
 
 #include "Classical/Core/MatrixRadiosity.h"
+#include "vtkCoreShell.h"
 #include "vtkObjectFactory.h"
 
 vtkStandardNewMacro(vtkMatrixRadiosity);
@@ -9,20 +10,11 @@ vtkMatrixRadiosity::vtkMatrixRadiosity() : Options(new lambert::MatrixRadiosityO
 
 vtkMatrixRadiosity::~vtkMatrixRadiosity() = default;
 
-#define lambertOptionMacro(name, type, member)     \
-  void vtkMatrixRadiosity::Set##name(type value) { \
-    if (this->Options->member != value) {          \
-      this->Options->member = value;               \
-      this->Modified();                            \
-    }                                              \
-  }                                                \
-  type vtkMatrixRadiosity::Get##name() { return this->Options->member; }
-lambertOptionMacro(ElementSize, double, elementSize);
-lambertOptionMacro(VisibilityRays, int, visibilityRays);
-lambertOptionMacro(SkyRays, int, skyRays);
-lambertOptionMacro(Tolerance, double, tolerance);
-lambertOptionMacro(MemoryLimit, vtkTypeInt64, memoryLimit);
-#undef lambertOptionMacro
+lambertOptionMacro(vtkMatrixRadiosity, ElementSize, double, elementSize);
+lambertOptionMacro(vtkMatrixRadiosity, VisibilityRays, int, visibilityRays);
+lambertOptionMacro(vtkMatrixRadiosity, SkyRays, int, skyRays);
+lambertOptionMacro(vtkMatrixRadiosity, Tolerance, double, tolerance);
+lambertOptionMacro(vtkMatrixRadiosity, MemoryLimit, vtkTypeInt64, memoryLimit);
 
 int vtkMatrixRadiosity::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                     vtkInformationVector* outputs) {

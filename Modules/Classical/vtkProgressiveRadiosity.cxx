@@ -2,6 +2,7 @@
 
 #include "Classical/Core/ProgressiveRadiosity.h"
 #include "vtkCommand.h"
+#include "vtkCoreShell.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMethodPorts.h"
@@ -16,20 +17,11 @@ vtkProgressiveRadiosity::vtkProgressiveRadiosity()
 
 vtkProgressiveRadiosity::~vtkProgressiveRadiosity() = default;
 
-#define lambertOptionMacro(name, type, member)          \
-  void vtkProgressiveRadiosity::Set##name(type value) { \
-    if (this->Options->member != value) {               \
-      this->Options->member = value;                    \
-      this->Modified();                                 \
-    }                                                   \
-  }                                                     \
-  type vtkProgressiveRadiosity::Get##name() { return this->Options->member; }
-lambertOptionMacro(ElementSize, double, elementSize);
-lambertOptionMacro(PatchSize, double, patchSize);
-lambertOptionMacro(Unshot, double, unshot);
-lambertOptionMacro(Shots, vtkTypeInt64, shots);
-lambertOptionMacro(SkyRays, int, skyRays);
-#undef lambertOptionMacro
+lambertOptionMacro(vtkProgressiveRadiosity, ElementSize, double, elementSize);
+lambertOptionMacro(vtkProgressiveRadiosity, PatchSize, double, patchSize);
+lambertOptionMacro(vtkProgressiveRadiosity, Unshot, double, unshot);
+lambertOptionMacro(vtkProgressiveRadiosity, Shots, vtkTypeInt64, shots);
+lambertOptionMacro(vtkProgressiveRadiosity, SkyRays, int, skyRays);
 
 int vtkProgressiveRadiosity::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                          vtkInformationVector* outputs) {

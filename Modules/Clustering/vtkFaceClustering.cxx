@@ -3,9 +3,9 @@
 #include "Clustering/Core/ClusterCut.h"
 #include "Clustering/Core/FaceClustering.h"
 #include "Clustering/Core/KeptClustering.h"
-#include "Common/Core/Error.h"
 #include "vtkCellData.h"
 #include "vtkClusterTreeAdapter.h"
+#include "vtkCoreShell.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkIntArray.h"
@@ -71,12 +71,7 @@ int vtkFaceClustering::RequestData(vtkInformation*, vtkInformationVector** input
                                    vtkInformationVector* outputs) {
   vtkPolyData* mesh = vtkPolyData::GetData(outputs, 0);
   vtkTable* table = vtkTable::GetData(outputs, 1);
-  const auto progress = [this](double fraction, const char* stage) {
-    this->SetProgressText(stage);
-    this->UpdateProgress(fraction);
-    return !this->GetAbortExecute();
-  };
-  try {
+  return lambert::RunCore(this, [&](const lambert::ProgressCallback& progress) {
     lambert::Scene scene = lambert::SceneFromPolyData(vtkPolyData::GetData(inputs[0]));
     const lambert::ClusterTree& tree = this->Clustering->Cluster(
         &scene.mesh, scene.parts, *this->Options, this->Statistics.get(), progress);
@@ -87,13 +82,7 @@ int vtkFaceClustering::RequestData(vtkInformation*, vtkInformationVector** input
                                          ? lambert::CutToCount(tree, this->ClusterCount)
                                          : lambert::CutAtLevel(tree, this->Level);
     mesh->GetCellData()->AddArray(ClusterIds(tree, cut, mesh->GetNumberOfCells()));
-    return 1;
-  } catch (const lambert::Cancelled&) {
-    return 1;  // An abort is no error; nothing is delivered.
-  } catch (const std::exception& error) {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+  });
 }
 
 void vtkFaceClustering::PrintSelf(ostream& os, vtkIndent indent) {

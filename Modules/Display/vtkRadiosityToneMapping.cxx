@@ -2,6 +2,7 @@
 
 #include "Common/Core/Error.h"
 #include "Display/Core/ToneMapping.h"
+#include "vtkCoreShell.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
@@ -23,18 +24,9 @@ vtkRadiosityToneMapping::vtkRadiosityToneMapping() : Options(new lambert::ToneMa
 
 vtkRadiosityToneMapping::~vtkRadiosityToneMapping() = default;
 
-#define lambertOptionMacro(name, member)                  \
-  void vtkRadiosityToneMapping::Set##name(double value) { \
-    if (this->Options->member != value) {                 \
-      this->Options->member = value;                      \
-      this->Modified();                                   \
-    }                                                     \
-  }                                                       \
-  double vtkRadiosityToneMapping::Get##name() { return this->Options->member; }
-lambertOptionMacro(Key, key);
-lambertOptionMacro(Exposure, exposure);
-lambertOptionMacro(White, white);
-#undef lambertOptionMacro
+lambertOptionMacro(vtkRadiosityToneMapping, Key, double, key);
+lambertOptionMacro(vtkRadiosityToneMapping, Exposure, double, exposure);
+lambertOptionMacro(vtkRadiosityToneMapping, White, double, white);
 
 void vtkRadiosityToneMapping::SetCurve(int curve) {
   const auto wanted = static_cast<lambert::ToneCurve>(std::clamp<int>(curve, PHOTOGRAPHIC, FILMIC));
@@ -103,7 +95,7 @@ int vtkRadiosityToneMapping::RequestData(vtkInformation*, vtkInformationVector**
   if (input->GetNumberOfPoints() == 0) {
     return 1;
   }
-  try {
+  return lambert::RunCore(this, [&](const lambert::ProgressCallback&) {
     // Adapt to the light that the scene reflects.
     const std::vector<lambert::Spectrum> light = PointLight(input);
     const lambert::TriangleMesh mesh = lambert::TriangleMeshFromPolyData(input);
@@ -119,11 +111,7 @@ int vtkRadiosityToneMapping::RequestData(vtkInformation*, vtkInformationVector**
                             toneMapping.ApplyToBytes(light[point]).data());
     }
     output->GetPointData()->SetScalars(colors);
-    return 1;
-  } catch (const std::exception& error) {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+  });
 }
 
 void vtkRadiosityToneMapping::PrintSelf(ostream& os, vtkIndent indent) {

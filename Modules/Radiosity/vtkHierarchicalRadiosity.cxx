@@ -5,6 +5,7 @@
 #include "Common/Core/Error.h"
 #include "Radiosity/Core/HierarchicalRadiosity.h"
 #include "Scene/Core/SceneKey.h"
+#include "Scene/Core/SceneMaterials.h"
 #include "vtkCommand.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -31,13 +32,20 @@ vtkHierarchicalRadiosity::vtkHierarchicalRadiosity()
 
 vtkHierarchicalRadiosity::~vtkHierarchicalRadiosity() = default;
 
+// Links that were made with another option do not count.
+template <class T>
+void vtkHierarchicalRadiosity::SetOption(T* option, const T& value) {
+  if (*option == value) {
+    return;
+  }
+  *option = value;
+  this->Kept.reset();
+  this->Modified();
+}
+
 #define lambertOptionMacro(name, type, member)           \
   void vtkHierarchicalRadiosity::Set##name(type value) { \
-    if (this->Options->member != value) {                \
-      this->Options->member = value;                     \
-      this->Kept.reset();                                \
-      this->Modified();                                  \
-    }                                                    \
+    this->SetOption(&this->Options->member, value);      \
   }                                                      \
   type vtkHierarchicalRadiosity::Get##name() { return this->Options->member; }
 lambertOptionMacro(Error, double, error);
@@ -50,30 +58,20 @@ lambertOptionMacro(SnapTolerance, float, leafMesh.snapTolerance);
 #undef lambertOptionMacro
 
 // The choices of the core, in the order of the enumerations here.
-#define lambertChoiceMacro(name, type, last, member)                        \
-  void vtkHierarchicalRadiosity::Set##name(int value) {                     \
-    const auto choice = static_cast<type>(std::clamp<int>(value, 0, last)); \
-    if (this->Options->member != choice) {                                  \
-      this->Options->member = choice;                                       \
-      this->Kept.reset();                                                   \
-      this->Modified();                                                     \
-    }                                                                       \
-  }                                                                         \
+#define lambertChoiceMacro(name, type, last, member)                                             \
+  void vtkHierarchicalRadiosity::Set##name(int value) {                                          \
+    this->SetOption(&this->Options->member, static_cast<type>(std::clamp<int>(value, 0, last))); \
+  }                                                                                              \
   int vtkHierarchicalRadiosity::Get##name() { return static_cast<int>(this->Options->member); }
 lambertChoiceMacro(Refinement, lambert::PatchRefinement, QUADTREE, leafMesh.refinement);
 lambertChoiceMacro(Oracle, lambert::OracleKind, VISIBILITY, oracle);
 lambertChoiceMacro(Schedule, lambert::Schedule, INTERLEAVED, schedule);
 #undef lambertChoiceMacro
 
-#define lambertFileNameMacro(name, member)                     \
-  void vtkHierarchicalRadiosity::Set##name(const char* file) { \
-    const std::string text = file ? file : "";                 \
-    if (this->Options->member != text) {                       \
-      this->Options->member = text;                            \
-      this->Kept.reset();                                      \
-      this->Modified();                                        \
-    }                                                          \
-  }                                                            \
+#define lambertFileNameMacro(name, member)                                  \
+  void vtkHierarchicalRadiosity::Set##name(const char* file) {              \
+    this->SetOption(&this->Options->member, std::string(file ? file : "")); \
+  }                                                                         \
   const char* vtkHierarchicalRadiosity::Get##name() { return this->Options->member.c_str(); }
 lambertFileNameMacro(StateFileName, saveState);
 lambertFileNameMacro(ResumeFileName, resume);
@@ -98,45 +96,6 @@ lambert::ClusterTree ClusterScene(vtkTable* given, const lambert::ProgressCallba
     mesh.sourceCellId[face] = source[static_cast<size_t>(methodScene->inputFace[face])];
   }
   return tree;
-}
-
-/// The values of the faces of an input, in the order of the kept scene.
-template <class T>
-std::vector<T> InOrder(const std::vector<int64_t>& inputFace, const std::vector<T>& values) {
-  std::vector<T> ordered(values.size());
-  for (size_t face = 0; face < ordered.size(); ++face) {
-    ordered[face] = values[static_cast<size_t>(inputFace[face])];
-  }
-  return ordered;
-}
-
-/// Gives the kept scene the materials of `next`; false, with nothing changed, where these are what
-/// it has, or where more than materials differs.
-bool TakeMaterials(const lambert::MethodScene& next, lambert::MethodScene* kept) {
-  // Points, faces, parts, and which faces share a material.
-  const lambert::TriangleMesh& mesh = next.scene.mesh;
-  lambert::TriangleMesh& own = kept->scene.mesh;
-  const std::vector<int64_t>& order = kept->inputFace;
-  if (mesh.triangles.size() != own.triangles.size() || mesh.positions != own.positions ||
-      mesh.normals != own.normals || mesh.uvs != own.uvs ||
-      InOrder(order, mesh.triangles) != own.triangles ||
-      InOrder(order, mesh.materialId) != own.materialId ||
-      InOrder(order, mesh.partId) != own.partId) {
-    return false;
-  }
-
-  // What they reflect and emit.
-  std::vector<lambert::Spectrum> reflectance = InOrder(order, mesh.reflectance);
-  std::vector<lambert::Spectrum> emittance = InOrder(order, mesh.emittance);
-  std::vector<uint8_t> flags = InOrder(order, mesh.faceFlags);
-  if (reflectance == own.reflectance && emittance == own.emittance && flags == own.faceFlags) {
-    return false;
-  }
-  own.reflectance = std::move(reflectance);
-  own.emittance = std::move(emittance);
-  own.faceFlags = std::move(flags);
-  kept->scene.materials = next.scene.materials;
-  return true;
 }
 
 void RequireOptions(const lambert::HierarchicalRadiosityOptions& options) {
@@ -167,8 +126,12 @@ bool vtkHierarchicalRadiosity::PrepareSolver(vtkPolyData* input, vtkTable* clust
            lambert::HashOf(lambert::ClusterTreeFromTable(clusters).nodes, 0) ==
                lambert::HashOf(this->Kept->tree.nodes, 0);
   };
-  if (this->Kept && this->Kept->lights == lights && isSameTree() &&
-      TakeMaterials(next, &this->Kept->methodScene) && this->Kept->solver->Relight()) {
+  const auto takesMaterials = [&] {
+    lambert::MethodScene& kept = this->Kept->methodScene;
+    return lambert::TakeMaterials(next.scene, kept.inputFace, &kept.scene);
+  };
+  if (this->Kept && this->Kept->lights == lights && isSameTree() && takesMaterials() &&
+      this->Kept->solver->Relight()) {
     return true;
   }
 

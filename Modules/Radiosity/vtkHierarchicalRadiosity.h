@@ -98,8 +98,7 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   void SetScheduleToScheduled() { this->SetSchedule(SCHEDULED); }
   void SetScheduleToInterleaved() { this->SetSchedule(INTERLEAVED); }
   ///@{ Whether elements, links and visibility stay in memory after a run; default on. Where the
-  /// input
-  /// then comes with other `Reflectance`, `Emittance` or emitting sides and nothing else has
+  /// input then comes with other `Reflectance`, `Emittance` or emitting sides and nothing else has
   /// changed, the light they have there is shown at once, to observers of UpdateDataEvent too, and
   /// refined from there: nothing is clustered or traced again. The result is within the error of
   /// that of a new run, not the same bits.
@@ -108,8 +107,7 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   vtkBooleanMacro(KeepLinks, bool);
   ///@}
   ///@{ File that gets the state at the end of every iteration of links, whole or not at all;
-  /// default
-  /// empty: none.
+  /// default empty: none.
   void SetStateFileName(const char* file);
   const char* GetStateFileName();
   ///@}
@@ -130,6 +128,8 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   void operator=(const vtkHierarchicalRadiosity&) = delete;
 
   struct Solver;
+  template <class T>
+  void SetOption(T* option, const T& value);
   bool PrepareSolver(vtkPolyData* input, vtkTable* clusters, const Progress& progress);
 
   std::unique_ptr<lambert::HierarchicalRadiosityOptions> Options;

@@ -1,9 +1,9 @@
 #include "vtkErrorMap.h"
 
-#include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 #include "Reference/Core/ErrorMap.h"
 #include "vtkCellData.h"
+#include "vtkCoreShell.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMethodPorts.h"
@@ -37,17 +37,8 @@ vtkErrorMap::vtkErrorMap() : Options(new lambert::ErrorMapOptions) {
 
 vtkErrorMap::~vtkErrorMap() = default;
 
-#define lambertOptionMacro(name, type, member) \
-  void vtkErrorMap::Set##name(type value) {    \
-    if (this->Options->member != value) {      \
-      this->Options->member = value;           \
-      this->Modified();                        \
-    }                                          \
-  }                                            \
-  type vtkErrorMap::Get##name() { return this->Options->member; }
-lambertOptionMacro(Samples, int, samples);
-lambertOptionMacro(Seed, vtkTypeUInt64, seed);
-#undef lambertOptionMacro
+lambertOptionMacro(vtkErrorMap, Samples, int, samples);
+lambertOptionMacro(vtkErrorMap, Seed, vtkTypeUInt64, seed);
 
 int vtkErrorMap::FillInputPortInformation(int, vtkInformation* information) {
   information->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
@@ -62,12 +53,7 @@ void vtkErrorMap::SetSceneData(vtkDataObject* scene) { this->SetInputData(kScene
 
 int vtkErrorMap::RequestData(vtkInformation*, vtkInformationVector** inputs,
                              vtkInformationVector* outputs) {
-  const auto progress = [this](double fraction, const char* stage) {
-    this->SetProgressText(stage);
-    this->UpdateProgress(fraction);
-    return !this->GetAbortExecute();
-  };
-  try {
+  return lambert::RunCore(this, [&](const lambert::ProgressCallback& progress) {
     lambert::SetThreadCount(this->NumberOfThreads);
     vtkPolyData* solved = vtkPolyData::GetData(inputs[0]);
     const lambert::Scene scene =
@@ -80,13 +66,7 @@ int vtkErrorMap::RequestData(vtkInformation*, vtkInformationVector** inputs,
     vtkPolyData* output = vtkPolyData::GetData(outputs);
     output->ShallowCopy(solved);
     AddMap(map, output->GetCellData());
-    return 1;
-  } catch (const lambert::Cancelled&) {
-    return 1;  // An abort is no error; nothing is delivered.
-  } catch (const std::exception& error) {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+  });
 }
 
 void vtkErrorMap::PrintSelf(ostream& os, vtkIndent indent) {

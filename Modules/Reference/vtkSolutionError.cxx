@@ -1,8 +1,8 @@
 #include "vtkSolutionError.h"
 
-#include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 #include "Reference/Core/SolutionError.h"
+#include "vtkCoreShell.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
@@ -48,18 +48,9 @@ vtkSolutionError::vtkSolutionError() : Options(new lambert::SolutionErrorOptions
 
 vtkSolutionError::~vtkSolutionError() = default;
 
-#define lambertOptionMacro(name, type, member)   \
-  void vtkSolutionError::Set##name(type value) { \
-    if (this->Options->member != value) {        \
-      this->Options->member = value;             \
-      this->Modified();                          \
-    }                                            \
-  }                                              \
-  type vtkSolutionError::Get##name() { return this->Options->member; }
-lambertOptionMacro(Points, int, points);
-lambertOptionMacro(Samples, int, samples);
-lambertOptionMacro(Seed, vtkTypeUInt64, seed);
-#undef lambertOptionMacro
+lambertOptionMacro(vtkSolutionError, Points, int, points);
+lambertOptionMacro(vtkSolutionError, Samples, int, samples);
+lambertOptionMacro(vtkSolutionError, Seed, vtkTypeUInt64, seed);
 
 int vtkSolutionError::FillInputPortInformation(int, vtkInformation* information) {
   information->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
@@ -74,12 +65,7 @@ void vtkSolutionError::SetSceneData(vtkDataObject* scene) { this->SetInputData(k
 
 int vtkSolutionError::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                   vtkInformationVector* outputs) {
-  const auto progress = [this](double fraction, const char* stage) {
-    this->SetProgressText(stage);
-    this->UpdateProgress(fraction);
-    return !this->GetAbortExecute();
-  };
-  try {
+  return lambert::RunCore(this, [&](const lambert::ProgressCallback& progress) {
     lambert::SetThreadCount(this->NumberOfThreads);
     const lambert::Scene scene =
         lambert::MethodSceneFromPolyData(vtkPolyData::GetData(inputs[kScenePort]), this->Sky).scene;
@@ -91,13 +77,7 @@ int vtkSolutionError::RequestData(vtkInformation*, vtkInformationVector** inputs
       vtkWarningMacro("The scene has no light: no face emits, no lamp is given, the sky is black.");
     }
     FillTable(error, vtkTable::GetData(outputs));
-    return 1;
-  } catch (const lambert::Cancelled&) {
-    return 1;  // An abort is no error; nothing is delivered.
-  } catch (const std::exception& error) {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+  });
 }
 
 void vtkSolutionError::PrintSelf(ostream& os, vtkIndent indent) {

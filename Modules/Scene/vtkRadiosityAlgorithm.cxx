@@ -2,6 +2,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
+#include "vtkCoreShell.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -34,11 +35,7 @@ int vtkRadiosityAlgorithm::Guard(const std::function<void(const Progress&)>& wor
   this->StoppedBy.clear();
   try {
     lambert::SetThreadCount(this->NumberOfThreads);
-    work([this](double fraction, const char* stage) {
-      this->SetProgressText(stage);
-      this->UpdateProgress(fraction);
-      return !this->GetAbortExecute();
-    });
+    work(lambert::ProgressOf(this));
     return 1;
   } catch (const lambert::Cancelled&) {
     this->StoppedBy = "interrupt";  // There is nothing to deliver.

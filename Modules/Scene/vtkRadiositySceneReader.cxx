@@ -1,7 +1,7 @@
 #include "vtkRadiositySceneReader.h"
 
-#include "Common/Core/Error.h"
 #include "Scene/Core/SceneReport.h"
+#include "vtkCoreShell.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -31,26 +31,16 @@ vtkRadiositySceneReader::~vtkRadiositySceneReader() = default;
 
 //------------------------------------------------------------------------------
 // Options of the algorithms, forwarded.
-#define LAMBERT_FORWARD_OPTION(name, type, option)      \
-  void vtkRadiositySceneReader::Set##name(type value) { \
-    if (this->Options->option != value) {               \
-      this->Options->option = value;                    \
-      this->Modified();                                 \
-    }                                                   \
-  }                                                     \
-  type vtkRadiositySceneReader::Get##name() { return this->Options->option; }
-
-LAMBERT_FORWARD_OPTION(MetresPerUnit, double, Reader.metresPerUnit)
-LAMBERT_FORWARD_OPTION(TwoSidedEmitters, bool, Reader.twoSidedEmitters)
-LAMBERT_FORWARD_OPTION(OpaqueGlass, bool, Reader.opaqueGlass)
-LAMBERT_FORWARD_OPTION(BlackMetals, bool, Reader.blackMetals)
-LAMBERT_FORWARD_OPTION(Weld, bool, Cleaning.weld)
-LAMBERT_FORWARD_OPTION(RemoveZeroArea, bool, Cleaning.removeZeroArea)
-LAMBERT_FORWARD_OPTION(RemoveRepeated, bool, Cleaning.removeRepeated)
-LAMBERT_FORWARD_OPTION(Orient, bool, Cleaning.orient)
-LAMBERT_FORWARD_OPTION(FixEmitters, bool, Cleaning.fixEmitters)
-LAMBERT_FORWARD_OPTION(FeatureAngle, double, Cleaning.featureAngle)
-#undef LAMBERT_FORWARD_OPTION
+lambertOptionMacro(vtkRadiositySceneReader, MetresPerUnit, double, Reader.metresPerUnit);
+lambertOptionMacro(vtkRadiositySceneReader, TwoSidedEmitters, bool, Reader.twoSidedEmitters);
+lambertOptionMacro(vtkRadiositySceneReader, OpaqueGlass, bool, Reader.opaqueGlass);
+lambertOptionMacro(vtkRadiositySceneReader, BlackMetals, bool, Reader.blackMetals);
+lambertOptionMacro(vtkRadiositySceneReader, Weld, bool, Cleaning.weld);
+lambertOptionMacro(vtkRadiositySceneReader, RemoveZeroArea, bool, Cleaning.removeZeroArea);
+lambertOptionMacro(vtkRadiositySceneReader, RemoveRepeated, bool, Cleaning.removeRepeated);
+lambertOptionMacro(vtkRadiositySceneReader, Orient, bool, Cleaning.orient);
+lambertOptionMacro(vtkRadiositySceneReader, FixEmitters, bool, Cleaning.fixEmitters);
+lambertOptionMacro(vtkRadiositySceneReader, FeatureAngle, double, Cleaning.featureAngle);
 
 //------------------------------------------------------------------------------
 void vtkRadiositySceneReader::SetFileName(const std::string& name) {
@@ -107,16 +97,11 @@ int vtkRadiositySceneReader::RequestData(vtkInformation*, vtkInformationVector**
   Settings& options = *this->Options;
   options.Reader.defaultReflectance = spectrum(this->DefaultReflectance);
   options.ReportJson.clear();
-  try {
+  return lambert::RunCore(this, [&](const lambert::ProgressCallback& progress) {
     lambert::ReadReport read;
     lambert::CleaningReport cleaning;
     lambert::Scene scene = lambert::LoadScene(options.FileNames, options.Reader, options.Cleaning,
-                                              options.MaterialSettings, &read, &cleaning,
-                                              [this](double fraction, const char* stage) {
-                                                this->SetProgressText(stage);
-                                                this->UpdateProgress(fraction);
-                                                return this->GetAbortExecute() == 0;
-                                              });
+                                              options.MaterialSettings, &read, &cleaning, progress);
     if (!spectrum(this->Sky).IsBlack()) {
       lambert::Light sky;
       sky.type = lambert::LightType::Sky;
@@ -126,13 +111,7 @@ int vtkRadiositySceneReader::RequestData(vtkInformation*, vtkInformationVector**
     }
     lambert::PolyDataFromScene(scene, vtkPolyData::GetData(outputVector));
     options.ReportJson = lambert::SceneReportJson(read, cleaning);
-  } catch (const lambert::Cancelled&) {
-    return 1;
-  } catch (const std::exception& error) {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
-  return 1;
+  });
 }
 
 void vtkRadiositySceneReader::PrintSelf(ostream& os, vtkIndent indent) {

@@ -1,0 +1,47 @@
+// What every filter does about the algorithm of a Core that it stands for: options that stand
+// there, progress, abort and errors in VTK's terms. C++ only.
+#ifndef vtkCoreShell_h
+#define vtkCoreShell_h
+
+#include "Common/Core/Error.h"
+#include "Common/Core/Progress.h"
+#include "vtkAlgorithm.h"
+
+#include <exception>
+
+/// Set##name and Get##name of `filter` for an option of its `Options`, where the default stands.
+#define lambertOptionMacro(filter, name, type, member) \
+  void filter::Set##name(type value) {                 \
+    if (this->Options->member != value) {              \
+      this->Options->member = value;                   \
+      this->Modified();                                \
+    }                                                  \
+  }                                                    \
+  type filter::Get##name() { return this->Options->member; }
+
+namespace lambert {
+/// Shows the progress of `filter`; false where it is to be aborted.
+inline ProgressCallback ProgressOf(vtkAlgorithm* filter) {
+  return [filter](double fraction, const char* stage) {
+    filter->SetProgressText(stage);
+    filter->UpdateProgress(fraction);
+    return !filter->GetAbortExecute();
+  };
+}
+
+/// What RequestData returns of `work`(progress). An abort is no error, and nothing is delivered.
+template <class Work>
+int RunCore(vtkAlgorithm* filter, const Work& work) {
+  try {
+    work(ProgressOf(filter));
+    return 1;
+  } catch (const Cancelled&) {
+    return 1;
+  } catch (const std::exception& error) {
+    vtkErrorWithObjectMacro(filter, << error.what());
+    return 0;
+  }
+}
+}  // namespace lambert
+
+#endif
