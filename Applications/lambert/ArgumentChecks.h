@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -42,6 +43,13 @@ inline CLI::Validator Within(double low, double high, const std::string& descrip
 
 inline CLI::Validator NotNegative() {
   return Within(0, std::numeric_limits<float>::max(), "of 0 or more");
+}
+
+inline void RequirePngName(const std::string& image) {
+  const std::string ending = std::filesystem::path(image).extension().string();
+  if (!image.empty() && ending != ".png" && ending != ".PNG") {
+    throw CLI::ValidationError("--image", "the name has to end in .png");
+  }
 }
 
 }  // namespace lambert

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "Arguments.h"
 #include "BenchReference.h"
+#include "SceneArguments.h"
 
 namespace CLI {
 class App;

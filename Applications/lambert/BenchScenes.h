@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "Arguments.h"
 #include "Scene/Core/Scene.h"
+#include "SceneArguments.h"
 
 namespace lambert {
 

@@ -1,7 +1,7 @@
 // The commands. They throw lambert::Error for what goes wrong and return the exit code.
 #pragma once
 
-#include "Arguments.h"
+#include "SolveArguments.h"
 
 namespace lambert {
 

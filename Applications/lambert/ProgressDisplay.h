@@ -4,9 +4,9 @@
 #include <mutex>
 #include <string>
 
-#include "Arguments.h"
 #include "Common/Core/Progress.h"
 #include "Common/Core/Timer.h"
+#include "ProgressStyle.h"
 #include "Scene/Core/RadiositySolution.h"
 
 namespace lambert {

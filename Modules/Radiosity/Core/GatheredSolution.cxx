@@ -1,6 +1,10 @@
 #include "Radiosity/Core/GatheredSolution.h"
 
+#include <algorithm>
+
 #include "Common/Core/Random.h"
+#include "Common/Core/Timer.h"
+#include "Radiosity/Core/FinalGather.h"
 #include "Radiosity/Core/GatheredMesh.h"
 
 namespace lambert {
@@ -11,7 +15,57 @@ namespace {
 /// mean of the others stays.
 constexpr uint64_t kForgettingRounds = 5, kLeafRounds = 8;
 
+/// Rays of every point and of a leaf of mean area over the hemisphere, times the error; what their
+/// scatter may leave, of the wanted error.
+constexpr double kFirstRays = 0.4, kLeafRays = 0.8, kNoiseShare = 0.7;
+constexpr int kLeastFirstRays = 2, kLeastLeafRays = 4, kMostLeafRays = 64;
+/// No point casts more than so many times the rays of the first round.
+constexpr int kMostOfFirst = 32;
+
+/// Blotches are seen where the rest of a coarse solution is not: scatter is kept low there too.
+constexpr double kMostNoise = 0.08;
+
+/// Points that are gathered at to predict how long all take, and the reserve for what they leave
+/// out (leaves).
+constexpr int64_t kTrialPoints = 1024;
+constexpr double kTrialReserve = 1.2;
+
 }  // namespace
+
+double NoiseFor(double error) { return std::min(kMostNoise, kNoiseShare * error); }
+
+GatheredSolutionOptions GatherFor(double error) {
+  GatheredSolutionOptions options;
+  options.leafRays = std::clamp(int(kLeafRays / error), kLeastLeafRays, kMostLeafRays);
+  GatheredPointsOptions& points = options.points;
+  points.noise = NoiseFor(error);
+  points.firstRays = kLeastFirstRays;
+  while (points.firstRays < kFirstRays / error) points.firstRays *= 2;
+  points.mostRays = kMostOfFirst * points.firstRays;
+  points.directRays = std::min(64, std::max(8, int(0.8 / error)));
+  points.penumbraRays = std::min(256, std::max(8, int(1.2 / error)));
+  return options;
+}
+
+double PredictGatherSeconds(const ElementHierarchy& hierarchy, const RayScene& rayScene,
+                            const ElementLight& light, double error) {
+  const TriangleMesh& mesh = hierarchy.GetScene().mesh;
+  std::vector<GatheredPoints::Point> points;
+  for (int64_t i = 0; i < kTrialPoints; ++i) {
+    const int64_t face = mesh.FaceCount() * i / kTrialPoints;
+    const Vec3f normal = mesh.FrontNormal(face);
+    const Vec3f center = (mesh.Corner(face, 0) + mesh.Corner(face, 1) + mesh.Corner(face, 2)) / 3.f;
+    points.push_back({uint64_t(i), {center, normal, normal}, false});
+  }
+  const Timer timer;
+  ElementLight trial = light;
+  int64_t rays = 0;
+  const FinalGather gather(hierarchy, rayScene, &trial);
+  GatheredPoints trialPoints(gather, GatherFor(error).points);
+  trialPoints.At(points, &rays);
+  const double all = double(mesh.PointCount()) + 2.0 * hierarchy.Leaves().PatchCount();
+  return kTrialReserve * timer.Seconds() * all / kTrialPoints;
+}
 
 struct GatheredSolution::Implementation {
   Implementation(ElementHierarchy* hierarchy, ElementLight* light, const RayScene& rayScene,

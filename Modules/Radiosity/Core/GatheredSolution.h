@@ -22,6 +22,15 @@ struct GatheredSolutionOptions {
   GatheredPointsOptions points;
 };
 
+/// What scatter of rays may leave at a wanted relative error, a relative RMS error.
+double NoiseFor(double error);
+/// The final gather that usually gives a wanted relative error, (0, 1]; measured
+/// (Documentation/Stages).
+GatheredSolutionOptions GatherFor(double error);
+/// Seconds that gathering at all points for that error will take, by what a few take.
+double PredictGatherSeconds(const ElementHierarchy& hierarchy, const RayScene& rayScene,
+                            const ElementLight& light, double error);
+
 /// Construct, Gather, Cut as often as wanted, Deliver.
 class GatheredSolution {
  public:

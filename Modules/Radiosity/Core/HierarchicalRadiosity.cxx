@@ -7,9 +7,9 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Timer.h"
+#include "Radiosity/Core/ElementCounts.h"
 #include "Radiosity/Core/EnergyBalance.h"
 #include "Radiosity/Core/ExposureSplitting.h"
-#include "Radiosity/Core/FinalGather.h"
 #include "Radiosity/Core/GatheredSolution.h"
 #include "Radiosity/Core/LightExchange.h"
 #include "Radiosity/Core/LinkRefinement.h"
@@ -67,35 +67,6 @@ constexpr double kAimBelow = 0.85;
 /// The first round of cuts takes at most about this part of the time of the gather before it, a
 /// later one up to so many times as long as the one before.
 constexpr double kFirstRound = 0.75, kRoundGrowth = 1.5;
-/// Points that are gathered at to predict how long all take, and the reserve for what they leave
-/// out (leaves).
-constexpr int64_t kTrialPoints = 1024;
-constexpr double kTrialReserve = 1.2;
-
-/// Rays of every point and of a leaf of mean area over the hemisphere, times the error; what their
-/// scatter may leave, of the wanted error.
-constexpr double kFirstRays = 0.4, kLeafRays = 0.8, kNoiseShare = 0.7;
-constexpr int kLeastFirstRays = 2, kLeastLeafRays = 4, kMostLeafRays = 64;
-/// No point casts more than so many times the rays of the first round.
-constexpr int kMostOfFirst = 32;
-
-/// Blotches are seen where the rest of a coarse solution is not: scatter is kept low there too.
-constexpr double kMostNoise = 0.08;
-double NoiseFor(double error) { return std::min(kMostNoise, kNoiseShare * error); }
-
-/// The final gather that usually gives a wanted relative error, measured (Documentation/Stages).
-GatheredSolutionOptions GatherFor(double error) {
-  GatheredSolutionOptions options;
-  options.leafRays = std::clamp(int(kLeafRays / error), kLeastLeafRays, kMostLeafRays);
-  GatheredPointsOptions& points = options.points;
-  points.noise = NoiseFor(error);
-  points.firstRays = kLeastFirstRays;
-  while (points.firstRays < kFirstRays / error) points.firstRays *= 2;
-  points.mostRays = kMostOfFirst * points.firstRays;
-  points.directRays = std::min(64, std::max(8, int(0.8 / error)));
-  points.penumbraRays = std::min(256, std::max(8, int(1.2 / error)));
-  return options;
-}
 /// What interpolation may leave at first, of the wanted error; and the rounds of cutting it takes.
 constexpr double kInterpolationShare = 0.65;
 constexpr int kCuttingRounds = 5;
@@ -203,8 +174,6 @@ struct HierarchicalRadiosity::Implementation {
   bool HasTimeFor(double seconds) const {
     return !(options.timeLimit > 0 && clock.Seconds() + seconds > options.timeLimit);
   }
-  double PredictGatherSeconds() const;
-  void Count();
 };
 
 HierarchicalRadiosity::HierarchicalRadiosity(const Scene& scene, const ClusterTree& tree,
@@ -250,7 +219,10 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
     // Links as fine as the request usually asks for: gather, or see whether they are good enough.
     if (threshold <= last && self.options.finalGather) {
       self.linkSolution.reset();
-      if (self.options.timeLimit > 0 && !self.HasTimeFor(self.PredictGatherSeconds())) {
+      const auto predicted = [&] {
+        return PredictGatherSeconds(self.hierarchy, self.rayScene, self.light, self.options.error);
+      };
+      if (self.options.timeLimit > 0 && !self.HasTimeFor(predicted())) {
         statistics.stoppedBy = "time";
       } else if (!self.memory.HasRoomForGather()) {
         statistics.stoppedBy = "memory";
@@ -268,7 +240,7 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
     if (!self.memory.HasRoomForIteration(statistics.history)) statistics.stoppedBy = "memory";
     threshold *= kThresholdFactor;
   }
-  self.Count();
+  CountElementsAndLinks(self.hierarchy, self.network, &statistics);
   MeasureEnergyBalance(self.hierarchy, self.network, self.light, self.rayScene, &statistics);
 }
 
@@ -331,56 +303,6 @@ bool HierarchicalRadiosity::Implementation::EndsHere(bool goOn) {
     statistics.stoppedBy = "interrupt";
   }
   return !statistics.stoppedBy.empty();
-}
-
-// By what a few points take that stand for all.
-double HierarchicalRadiosity::Implementation::PredictGatherSeconds() const {
-  const TriangleMesh& mesh = scene.mesh;
-  std::vector<GatheredPoints::Point> points;
-  for (int64_t i = 0; i < kTrialPoints; ++i) {
-    const int64_t face = mesh.FaceCount() * i / kTrialPoints;
-    const Vec3f normal = mesh.FrontNormal(face);
-    const Vec3f center = (mesh.Corner(face, 0) + mesh.Corner(face, 1) + mesh.Corner(face, 2)) / 3.f;
-    points.push_back({uint64_t(i), {center, normal, normal}, false});
-  }
-  const Timer timer;
-  ElementLight trial = light;
-  int64_t rays = 0;
-  const FinalGather gather(hierarchy, rayScene, &trial);
-  GatheredPoints trialPoints(gather, GatherFor(options.error).points);
-  trialPoints.At(points, &rays);
-  const double all = double(mesh.PointCount()) + 2.0 * hierarchy.Leaves().PatchCount();
-  return kTrialReserve * timer.Seconds() * all / kTrialPoints;
-}
-
-// Elements and links by kind.
-void HierarchicalRadiosity::Implementation::Count() {
-  SolverStatistics& s = statistics;
-  s.volumeElements = s.faceElements = s.patchElements = 0;
-  s.volumeVolume = s.volumeFace = s.faceFace = s.facePatch = s.volumePatch = s.patchPatch = 0;
-  s.fromLights = 0;
-  s.rays = network.rays;
-  s.linksAtFloor = network.linksAtFloor;
-  for (int32_t index = 0; index < hierarchy.Size(); ++index) {
-    const ElementKind kind = hierarchy[index].kind;
-    if (kind == ElementKind::Volume) ++s.volumeElements;
-    if (kind == ElementKind::Face) ++s.faceElements;
-    if (kind == ElementKind::Patch) ++s.patchElements;
-    for (const Link& link : network.incoming[size_t(index)]) {
-      const ElementKind source = hierarchy[link.source].kind;
-      const ElementKind coarse = std::min(kind, source), fine = std::max(kind, source);
-      if (source == ElementKind::Light)
-        ++s.fromLights;
-      else if (fine == ElementKind::Volume)
-        ++s.volumeVolume;
-      else if (fine == ElementKind::Face)
-        ++(coarse == ElementKind::Volume ? s.volumeFace : s.faceFace);
-      else if (coarse == ElementKind::Volume)
-        ++s.volumePatch;
-      else
-        ++(coarse == ElementKind::Face ? s.facePatch : s.patchPatch);
-    }
-  }
 }
 
 // Light at the points of the mesh by the links alone.
@@ -485,7 +407,7 @@ bool HierarchicalRadiosity::Relight() {
   }
   self.statistics.history.clear();
   self.statistics.stoppedBy.clear();
-  self.Count();
+  CountElementsAndLinks(self.hierarchy, self.network, &self.statistics);
   return true;
 }
 

@@ -1,4 +1,4 @@
-// What the command line asks for.
+// What `solve` is asked for.
 #pragma once
 
 #include <array>
@@ -8,36 +8,19 @@
 #include <vector>
 
 #include "Atlas/Core/LightMapPages.h"
-#include "Atlas/Core/RadiosityAtlas.h"
+#include "AtlasArguments.h"
 #include "Display/Core/ToneMapping.h"
 #include "Display/Core/UpAxis.h"
 #include "Engine/RadiosityRun.h"
 #include "LightArguments.h"
 #include "Scene/Core/Scene.h"
+#include "SceneArguments.h"
 
 namespace CLI {
 class App;
 }
 
 namespace lambert {
-
-enum class ProgressStyle { Auto, Plain, None };
-
-/// Options that `solve` and `info` share: how files are read and cleaned.
-struct SceneArguments {
-  std::vector<std::string> files;
-  std::string unit;
-  std::vector<float> reflectance{0.5f, 0.5f, 0.5f};
-  std::string metals = "base";
-  std::vector<std::string> settings;
-  bool twoSidedEmitters = false, opaqueGlass = false;
-  bool noWeld = false, noZeroArea = false, noRepeated = false, noOrient = false,
-       noEmitterFix = false;
-  double featureAngle = CleaningOptions().featureAngle;
-
-  void AddTo(CLI::App* command);
-  void Apply(RadiosityRunOptions* options) const;
-};
 
 struct SolveArguments {
   SceneArguments scene;
@@ -79,29 +62,12 @@ struct SolveArguments {
   RadiosityRunOptions RunOptions() const;
 
  private:
+  void AddMethodsTo(CLI::App* command);
+  void AddOutputsTo(CLI::App* command);
   /// Throws CLI::ValidationError where an option was given that is another method's.
   void RequireOptionsOfMethod() const;
 
   CLI::App* command_ = nullptr;
-};
-
-struct AtlasArguments {
-  SceneArguments scene;
-  std::string output, image, report;
-  AtlasOptions atlas;
-  int threads = 0;
-  ProgressStyle progress = ProgressStyle::Auto;
-
-  void AddTo(CLI::App* command);
-  /// Throws CLI::ValidationError where names have the wrong ending or name one file twice.
-  void Check() const;
-};
-
-struct InfoArguments {
-  SceneArguments scene;
-  bool json = false;
-
-  void AddTo(CLI::App* command);
 };
 
 }  // namespace lambert

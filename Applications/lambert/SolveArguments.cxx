@@ -1,0 +1,216 @@
+#include "SolveArguments.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "ArgumentChecks.h"
+#include "Engine/LitModelFile.h"
+#include "Engine/ObjFile.h"
+#include "Engine/SolutionFile.h"
+#include "FilesOfRun.h"
+
+namespace lambert {
+namespace {
+
+/// Of a name that was checked to be one of a method.
+SolveMethod MethodOfName(const std::string& name) {
+  return std::find_if(SolveMethods().begin(), SolveMethods().end(),
+                      [&](const SolveMethodTraits& traits) { return traits.name == name; })
+      ->method;
+}
+
+/// How hierarchical radiosity refines links and splits triangles.
+void AddRefinementOptions(CLI::App* command, HierarchicalRadiosityOptions* solver) {
+  std::map<std::string, OracleKind> oracles;
+  for (const OracleKind kind :
+       {OracleKind::Doubt, OracleKind::Geometric, OracleKind::Bfa, OracleKind::Visibility}) {
+    oracles[OracleName(kind)] = kind;
+  }
+  command
+      ->add_option_function<std::string>(
+          "--oracle", [=](const std::string& name) { solver->oracle = oracles.at(name); },
+          "What judges links")
+      ->check(CLI::IsMember(oracles))
+      ->default_str(OracleName(solver->oracle));
+  command
+      ->add_option_function<std::string>(
+          "--schedule",
+          [=](const std::string& name) {
+            solver->schedule = name == "interleaved" ? Schedule::Interleaved : Schedule::Scheduled;
+          },
+          "Light settles between refinements, or bounces once after each")
+      ->check(CLI::IsMember({"scheduled", "interleaved"}))
+      ->default_str("scheduled");
+  LeafMeshOptions* leafMesh = &solver->leafMesh;
+  command
+      ->add_option_function<std::string>(
+          "--refinement",
+          [=](const std::string& name) {
+            leafMesh->refinement =
+                name == "quadtree" ? PatchRefinement::Quadtree : PatchRefinement::Rectangle;
+          },
+          "Triangles are split across their minimum-area rectangle, or regularly into four")
+      ->check(CLI::IsMember({"rectangle", "quadtree"}))
+      ->default_str("rectangle");
+  command
+      ->add_option("--snap-tolerance", leafMesh->snapTolerance,
+                   "Splitting lines move to vertices within this part of the rectangle, [0, 0.5)")
+      ->check(Within(0, 0.499, "from 0 to 0.499"))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void SolveArguments::AddTo(CLI::App* command) {
+  command_ = command;
+  scene.AddTo(command);
+
+  // How.
+  command->add_option("-o,--output", output, "Solved scene, .vtp, .ply, .glb, .gltf, .html or .obj")
+      ->required();
+  this->AddMethodsTo(command);
+  command->add_option("--threads", threads, "Threads; 0: all processors")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  lights.AddTo(command);
+
+  this->AddOutputsTo(command);
+}
+
+void SolveArguments::AddMethodsTo(CLI::App* command) {
+  std::vector<std::string> names;
+  for (const SolveMethodTraits& traits : SolveMethods()) names.push_back(traits.name);
+  command
+      ->add_option_function<std::string>(
+          "--method", [this](const std::string& name) { method.method = MethodOfName(name); },
+          "How to solve")
+      ->check(CLI::IsMember(names))
+      ->default_str(names.front());
+  command->add_option("--samples", method.reference.samples, "Reference: paths a vertex")
+      ->check(CLI::Range(1, 100000000))
+      ->capture_default_str();
+  command
+      ->add_option("--element-size", elementSize,
+                   "Matrix, progressive, cached: longest edge, m; 0: 1/50 of the scene's diagonal")
+      ->check(NotNegative())
+      ->capture_default_str();
+  command
+      ->add_option("--output-size", method.cached.outputSize,
+                   "Cached: longest edge of the output, m; 0: the element size")
+      ->check(NotNegative())
+      ->capture_default_str();
+  command->add_option("--paths", method.cached.paths, "Cached: paths an element's side")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--gather-rays", method.cached.gatherRays, "Cached: rays a point")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command
+      ->add_option("--emitter-rays", method.cached.emitterRays,
+                   "Cached: rays a point to emitting faces")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  command->add_option("--seed", seed, "Reference, cached: another seed, another choice of paths")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+
+  // How well and how long, of hierarchical radiosity.
+  command->add_option("--error", solver.error, "Wanted relative RMS error of irradiance, (0, 1]")
+      ->check(Within(1e-6, 1, "from 1e-6 to 1"))
+      ->capture_default_str();
+  command->add_option("--time", time, "Seconds since the program began, writing included")
+      ->check(Within(1e-3, 1e9, "from 0.001 to 1e9"));
+  command->add_option("--max-memory", solver.memoryLimit, "MB of the process, writing included")
+      ->check(Within(1, 1e9, "from 1 to 1e9"));
+  command->add_option("--iterations", solver.iterations, "Iterations after which to end")
+      ->check(CLI::Range(1, 1000000));
+  command->add_flag("!--no-final-gather", solver.finalGather,
+                    "Deliver what links brought, without gathering anew at the points");
+  AddRefinementOptions(command, &solver);
+  command->add_option("--save-state", solver.saveState,
+                      "File that gets all that a later run needs to go on from here");
+  command->add_option("--resume", solver.resume, "File of --save-state that this run goes on from");
+}
+
+void SolveArguments::Check() const {
+  RequireOptionsOfMethod();
+  lights.Check();
+  if (!IsSolutionFileName(output) && !IsLitModelFileName(output)) {
+    throw CLI::ValidationError("--output",
+                               "the name has to end in .vtp, .ply, .glb, .gltf, .html or .obj");
+  }
+  if (IsLitModelFileName(output) && (introducedTriangles || !representations.empty())) {
+    throw CLI::ValidationError(
+        "--output",
+        "glTF, HTML and OBJ show all surfaces in one way; leave --introduced and "
+        "--represent to .vtp and .ply");
+  }
+  if (FileEnding(output) == ".obj" && model.keepTextures) {
+    throw CLI::ValidationError("--keep-textures",
+                               "OBJ has no light beside a texture; leave it to glTF and HTML");
+  }
+  if (probe.empty() != probeOutput.empty()) {
+    throw CLI::ValidationError("--probe", "--probe and --probe-output belong together");
+  }
+  RequirePngName(image);
+  if (!falseColorRange.empty() && !(falseColorRange[1] > falseColorRange[0])) {
+    throw CLI::ValidationError("--range", "goes from a number up to a larger one");
+  }
+  FilesOfRun files(scene.files);
+  files.Add("--probe", probe, false);
+  files.Add("--resume", solver.resume, false);
+  if (solver.saveState != solver.resume) files.Add("--save-state", solver.saveState, true);
+  files.Add("--output", output, true);
+  if (FileEnding(output) == ".obj") {
+    for (const std::string& name : FilesBesideObj(output, 1)) files.Add("--output", name, true);
+  }
+  files.Add("--probe-output", probeOutput, true);
+  files.Add("--image", image, true);
+  files.Add("--report", report, true);
+  if (!lightMap.empty()) {
+    if (std::filesystem::path(lightMap).extension() != ".vtp") {
+      throw CLI::ValidationError("--lightmap", "the name has to end in .vtp");
+    }
+    files.Add("--lightmap", lightMap, true);
+    for (const PageFormat format : pageFormats) {
+      files.Add("--lightmap", LightMapPageNames(lightMap, 1, format).front(), true);
+    }
+  }
+  ImageSize();
+  ImageCamera(UpAxis::Y);
+}
+
+void SolveArguments::RequireOptionsOfMethod() const {
+  const SolveMethodTraits& chosen = TraitsOf(method.method);
+  for (const SolveMethodTraits& traits : SolveMethods()) {
+    for (const std::string& option : traits.options) {
+      const auto& own = chosen.options;
+      if (std::find(own.begin(), own.end(), option) != own.end()) continue;
+      if (command_->count(option) == 0) continue;
+      throw CLI::ValidationError(option, "is no option of --method " + chosen.name);
+    }
+  }
+}
+
+RadiosityRunOptions SolveArguments::RunOptions() const {
+  RadiosityRunOptions options;
+  scene.Apply(&options);
+  options.method = method;
+  options.method.matrix.elementSize = elementSize;
+  options.method.progressive.elementSize = elementSize;
+  options.method.cached.elementSize = elementSize;
+  options.method.reference.seed = options.method.cached.seed = seed;
+  options.solver = solver;
+  options.timeLimit = time;
+  if (!lightMap.empty()) options.atlas = atlas;
+  options.introducedTriangles = introducedTriangles;
+  options.representations = representations;
+  // A picture costs a GL context and four samples a pixel: some 2 s a megapixel drawn in software.
+  const auto pixels = ImageSize();
+  if (!image.empty()) options.outputSeconds += 0.5 + 2e-6 * pixels[0] * pixels[1];
+  return options;
+}
+
+}  // namespace lambert

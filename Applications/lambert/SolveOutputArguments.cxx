@@ -1,0 +1,201 @@
+// What comes out of `solve` beside the solution.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "ArgumentChecks.h"
+#include "SolveArguments.h"
+
+namespace lambert {
+namespace {
+
+constexpr int kDefaultVerifyPoints = 2000;
+
+/// How light becomes the colours of pictures and of PLY.
+void AddToneOptions(CLI::App* command, ToneMappingOptions* tone, bool* dodgingAndBurning) {
+  const std::map<std::string, ToneCurve> curves{{"photographic", ToneCurve::Photographic},
+                                                {"local", ToneCurve::Photographic},
+                                                {"linear", ToneCurve::Linear},
+                                                {"filmic", ToneCurve::Filmic}};
+  command
+      ->add_option_function<std::string>(
+          "--tone",
+          [=](const std::string& name) {
+            tone->curve = curves.at(name);
+            *dodgingAndBurning = name == "local";
+          },
+          "How luminance is compressed; local: pictures expose every place for its surround")
+      ->check(CLI::IsMember({"photographic", "local", "linear", "filmic"}))
+      ->default_str("photographic");
+  command->add_option("--key", tone->key, "Display luminance of the mean of what is shown, (0, 1]")
+      ->check(Within(1e-6, 1, "from 1e-6 to 1"))
+      ->capture_default_str();
+  command->add_option("--exposure", tone->exposure, "Stops (EV) brighter or darker")
+      ->check(Within(-100, 100, "from -100 to 100"))
+      ->capture_default_str();
+  command
+      ->add_option_function<double>(
+          "--ev", [tone](double ev) { tone->exposureValue = ev; },
+          "Exposure value at ISO 100 of a camera that does not adapt to the light")
+      ->check(Within(-100, 100, "from -100 to 100"));
+  command->add_option("--white", tone->white, "Keyed luminance of full white; 0: by the curve")
+      ->check(NotNegative())
+      ->capture_default_str();
+}
+
+/// Illuminance in place of what the eye sees.
+void AddFalseColorOptions(CLI::App* command, SolveArguments* arguments) {
+  CLI::Option* colors = command
+                            ->add_option("--false-colors", arguments->falseColors,
+                                         "Picture of illuminance beside a scale: lux, W/m2")
+                            ->check(CLI::IsMember({"lux", "W/m2"}));
+  command->add_option("--range", arguments->falseColorRange, "Ends of the scale")
+      ->expected(2)
+      ->check(NotNegative())
+      ->needs(colors);
+  command
+      ->add_option("--steps", arguments->falseColorSteps,
+                   "Steps of the scale; 0: 4 to 6, as is round")
+      ->check(CLI::Range(0, 100))
+      ->capture_default_str()
+      ->needs(colors);
+  command->add_flag("--isolines", arguments->isolines, "Lines of equal illuminance at its labels")
+      ->needs(colors);
+}
+
+/// Which surfaces a light map takes.
+void AddRepresentationOptions(CLI::App* command, CLI::Option* lightMap, SolveArguments* arguments) {
+  command
+      ->add_option_function<int64_t>(
+          "--introduced", [=](int64_t most) { arguments->introducedTriangles = most; },
+          "Light map: triangles that refinement may add to surfaces lit by their points")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(lightMap);
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--represent",
+          [=](const std::vector<std::string>& wanted) {
+            for (const std::string& text : wanted) {
+              const size_t colon = text.rfind(':');
+              const std::string kind = colon == std::string::npos ? "" : text.substr(colon + 1);
+              if (kind != "points" && kind != "lightmap") {
+                throw CLI::ValidationError("--represent", "needs MATERIAL:points|lightmap");
+              }
+              arguments->representations[text.substr(0, colon)] =
+                  kind == "points" ? Representation::Points : Representation::LightMap;
+            }
+          },
+          "MATERIAL:points|lightmap, whatever refinement did to it")
+      ->allow_extra_args(false)
+      ->needs(lightMap);
+}
+
+/// The images of a light map, and what models under one do with textures.
+void AddMapOutputOptions(CLI::App* command, CLI::Option* lightMap, SolveArguments* arguments) {
+  const std::map<std::string, PageFormat> formats{
+      {"hdr", PageFormat::Hdr}, {"exr", PageFormat::Exr}, {"png", PageFormat::Png}};
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--page-format",
+          [=](const std::vector<std::string>& names) {
+            arguments->pageFormats.clear();
+            for (const std::string& name : names) {
+              arguments->pageFormats.push_back(formats.at(name));
+            }
+          },
+          "Pages of the light map: hdr, exr (floats), png (tone mapped); repeatable")
+      ->check(CLI::IsMember({"hdr", "exr", "png"}))
+      ->allow_extra_args(false)
+      ->default_str("hdr")
+      ->needs(lightMap);
+  command
+      ->add_flag("--keep-textures", arguments->model.keepTextures,
+                 "glTF, HTML: textured surfaces keep their images, and are lit at their points")
+      ->needs(lightMap);
+  command
+      ->add_option("--baked-size", arguments->model.bakedSize,
+                   "glTF, HTML, OBJ: texels along a side of a page that textures are baked into")
+      ->check(CLI::Range(16, 16384))
+      ->capture_default_str()
+      ->needs(lightMap);
+}
+
+}  // namespace
+
+void SolveArguments::AddOutputsTo(CLI::App* command) {
+  command->add_option("--probe", probe, "CSV of probe points: x,y,z,nx,ny,nz");
+  command->add_option("--probe-output", probeOutput, "CSV of readings: x,y,z,nx,ny,nz,r,g,b,kind");
+  command->add_flag("--probe-gather", probeGather, "Probes gather on surfaces too");
+  command->add_option("--image", image, "PNG picture (needs an X display, xvfb-run will do)");
+  command->add_option("--size", size, "Size of the picture, WxH pixels")->capture_default_str();
+  command->add_option("--camera", camera, "px,py,pz,fx,fy,fz[,fov]: eye, point looked at, degrees");
+  command->add_option("--up", up, "What is up for picture, sun and skies: auto, x, y, z")
+      ->check(CLI::IsMember({"auto", "x", "y", "z"}))
+      ->capture_default_str();
+  AddToneOptions(command, &tone, &dodgingAndBurning);
+  AddFalseColorOptions(command, this);
+  CLI::Option* map = command->add_option(
+      "--lightmap", lightMap, "Mesh with texture coordinates, .vtp, its pages beside it");
+  for (CLI::Option* option : AddAtlasOptions(command, &atlas)) option->needs(map);
+  AddRepresentationOptions(command, map, this);
+  AddMapOutputOptions(command, map, this);
+  command->add_flag("--both-sides", bothSides, "PLY: keep both lit sides of a face");
+  command
+      ->add_option_function<double>(
+          "--simplify",
+          [this](double tolerance) { simplification.emplace().tolerance = tolerance; },
+          "Fewer triangles, light within this fraction of what it was")
+      ->check(Within(1e-6, 1, "from 1e-6 to 1"));
+  command->add_option("--report", report, "Account of the run, JSON");
+  command
+      ->add_option("--verify", verifyPoints, "Measure the error at N points against a path trace")
+      ->expected(0, 1)
+      ->default_str(std::to_string(kDefaultVerifyPoints))
+      ->check(CLI::Range(1, 10000000));
+  AddProgress(command, &progress);
+}
+
+std::array<int, 2> SolveArguments::ImageSize() const {
+  const std::vector<double> numbers = ParseNumbers(size, 'x');
+  const auto isSide = [](double n) { return n >= 1 && n <= 8192 && n == std::floor(n); };
+  if (numbers.size() != 2 || !isSide(numbers[0]) || !isSide(numbers[1])) {
+    throw CLI::ValidationError("--size", "needs WxH, 1 to 8192 pixels each");
+  }
+  return {int(numbers[0]), int(numbers[1])};
+}
+
+UpAxis SolveArguments::UpOf(const TriangleMesh& mesh) const {
+  static const std::map<std::string, UpAxis> kAxes{
+      {"x", UpAxis::X}, {"y", UpAxis::Y}, {"z", UpAxis::Z}};
+  if (up != "auto") return kAxes.at(up);
+  const bool allSayIt = std::all_of(scene.files.begin(), scene.files.end(), [](const auto& file) {
+    const std::string ending = std::filesystem::path(file).extension().string();
+    return ending == ".gltf" || ending == ".glb";
+  });
+  return allSayIt ? UpAxis::Y : GuessUpAxis(mesh);
+}
+
+std::optional<Camera> SolveArguments::ImageCamera(UpAxis imageUp) const {
+  if (camera.empty()) return {};
+  const std::vector<double> n = ParseNumbers(camera, ',');
+  if (n.size() != 6 && n.size() != 7) {
+    throw CLI::ValidationError("--camera", "needs px,py,pz,fx,fy,fz or px,py,pz,fx,fy,fz,fov");
+  }
+  Camera view;
+  view.position = {n[0], n[1], n[2]};
+  view.focalPoint = {n[3], n[4], n[5]};
+  if (n.size() == 7) view.verticalFieldOfView = n[6];
+  const Vec3d forward = Normalize(view.focalPoint - view.position);
+  if (forward == Vec3d() || !(view.verticalFieldOfView > 0 && view.verticalFieldOfView < 180)) {
+    throw CLI::ValidationError(
+        "--camera", "needs two different points and a field of view of 0 to 180 degrees");
+  }
+  // Straight up or down what lies ahead of a y-up camera, -z, is up in the picture.
+  const bool isSteep = std::abs(ToYUp(forward, imageUp).y) > 0.999;
+  view.viewUp = FromYUp(isSteep ? Vec3d(0, 0, -1) : Vec3d(0, 1, 0), imageUp);
+  return view;
+}
+
+}  // namespace lambert
