@@ -8,16 +8,20 @@ from left to right, then down. Needs an X display.
 """
 import argparse
 import colorsys
+import os
+import sys
 
 import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  draws
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkTriangleFilter
 from vtkmodules.vtkFiltersSources import vtkSuperquadricSource
-from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow
 
 import lambert
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../Testing/Images"))
+from Pictures import write_picture  # noqa: E402
 
 
 def ring():
@@ -99,14 +103,7 @@ def main():
         column, row = place % columns, rows - 1 - place // columns
         viewport = (column / columns, row / rows, (column + 1) / columns, (row + 1) / rows)
         window.AddRenderer(view(clustered(shape, count, balance), viewport))
-    window.Render()
-    image = vtkWindowToImageFilter()
-    image.SetInput(window)
-    image.ReadFrontBufferOff()
-    writer = vtkPNGWriter()
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.SetFileName(options.out)
-    writer.Write()
+    write_picture(window, options.out)
 
 
 if __name__ == "__main__":

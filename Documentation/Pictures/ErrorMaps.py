@@ -9,16 +9,18 @@ tenth and hundredth of the area hold is printed, and how noisy the path trace is
 import argparse
 import os
 import re
+import sys
 
 import numpy as np
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  draws
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
-from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow,
-                                         vtkWindowToImageFilter)
+from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow)
 
 import lambert
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../Testing/Images"))
+from Pictures import write_picture  # noqa: E402
 
 SIZE = 720, 512  # Pixels
 STRIP = 0.14  # of the width, for the scale
@@ -121,7 +123,6 @@ def draw(mesh, camera, scale):
     window.SetSize(*SIZE)
     window.AddRenderer(picture)
     window.AddRenderer(strip)
-    window.Render()
     return window
 
 
@@ -140,13 +141,7 @@ def main():
     mesh = solved(arguments)
     tell(os.path.basename(arguments.scene), mesh)
     window = draw(mesh, camera, arguments.scale)
-    image = vtkWindowToImageFilter()
-    image.SetInput(window)
-    image.ReadFrontBufferOff()
-    writer = vtkPNGWriter()
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.SetFileName(arguments.out)
-    writer.Write()
+    write_picture(window, arguments.out)
 
 
 if __name__ == "__main__":

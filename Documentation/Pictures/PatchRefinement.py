@@ -9,12 +9,15 @@ right, then down; the triangles of each are printed. `--part` shows the floor fr
 """
 import argparse
 import os
+import sys
 
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  draws
-from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow
 
 import lambert
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../Testing/Images"))
+from Pictures import write_picture  # noqa: E402
 
 SCENE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../Data/ShadowedSlivers/ShadowedSlivers.obj")
 GAP = 0.012  # around a view, a fraction of it
@@ -88,14 +91,7 @@ def main():
         viewport = ((column + GAP) / options.columns, (row + GAP) / rows,
                     (column + 1 - GAP) / options.columns, (row + 1 - GAP) / rows)
         window.AddRenderer(view(scene, words.split(","), viewport, options.part))
-    window.Render()
-    image = vtkWindowToImageFilter()
-    image.SetInput(window)
-    image.ReadFrontBufferOff()
-    writer = vtkPNGWriter()
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.SetFileName(options.out)
-    writer.Write()
+    write_picture(window, options.out)
 
 
 if __name__ == "__main__":

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <optional>
 #include <string>
 
 #include "Common/Core/Error.h"
@@ -14,7 +13,7 @@ namespace {
 
 /// A floor under a lamp of the same size, all within a unit cube, with a screen between them at
 /// half height over all x below `screen`.
-struct LampOverFloor {
+struct LampOverFloor : testing::ModelledScene {
   explicit LampOverFloor(float screen) {
     testing::AddQuad(&scene.mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Spectrum(0.5f));
     testing::AddQuad(&scene.mesh, {0, 0, 1}, {0, 1, 0}, {1, 0, 0}, Spectrum(0.5f), Spectrum(10.f),
@@ -23,12 +22,7 @@ struct LampOverFloor {
       testing::AddTriangle(&scene.mesh, {screen, -9, 0.5f}, {screen, 10, 0.5f}, {-99, 0, 0.5f},
                            Spectrum(0.5f));
     }
-    testing::CompleteTables(&scene);
-    scene.mesh.Complete();
-    tree = ClusterFaces(&scene.mesh, scene.parts);
-    rayScene.emplace(scene.mesh);
-    lit.assign(tree.surfaceRoots.size(), 3);
-    hierarchy.emplace(scene, tree, lit, LeafMeshOptions());
+    this->Model();
   }
 
   /// The whole of the side at height `z` that faces the middle.
@@ -48,12 +42,6 @@ struct LampOverFloor {
   std::unique_ptr<RefinementOracle> Oracle(OracleKind kind) const {
     return MakeRefinementOracle(kind, *hierarchy, *rayScene);
   }
-
-  Scene scene;
-  ClusterTree tree;
-  std::vector<uint8_t> lit;
-  std::optional<RayScene> rayScene;
-  std::optional<ElementHierarchy> hierarchy;
 };
 
 TEST(RefinementOracle, DoubtIsLeastWhereAllSamplesAreClear) {

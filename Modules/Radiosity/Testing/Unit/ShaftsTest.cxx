@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <optional>
-
 #include "Radiosity/Core/RefinementOracle.h"
 #include "SolverScenes.h"
 
@@ -12,7 +10,7 @@ namespace lambert {
 namespace {
 
 /// Sixty random triangles, m, each a surface of its own with both sides modelled.
-struct RandomTriangles {
+struct RandomTriangles : testing::ModelledScene {
   explicit RandomTriangles(uint64_t seed) {
     Random random(seed);
     for (int i = 0; i < 60; ++i) {
@@ -21,12 +19,7 @@ struct RandomTriangles {
                            at + testing::RandomVector(&random), Spectrum(0.5f));
       scene.mesh.partId.back() = i;
     }
-    testing::CompleteTables(&scene);
-    scene.mesh.Complete();
-    tree = ClusterFaces(&scene.mesh, scene.parts);
-    rayScene.emplace(scene.mesh);
-    lit.assign(tree.surfaceRoots.size(), 3);
-    hierarchy.emplace(scene, tree, lit, LeafMeshOptions());
+    this->Model();
   }
 
   /// Of segments between random points, each in front of the other's plane, those that something
@@ -46,12 +39,6 @@ struct RandomTriangles {
     }
     return {blocked, all};
   }
-
-  Scene scene;
-  ClusterTree tree;
-  std::vector<uint8_t> lit;
-  std::optional<RayScene> rayScene;
-  std::optional<ElementHierarchy> hierarchy;
 };
 
 TEST(Shafts, WhatIsCertainHoldsForEverySegment) {

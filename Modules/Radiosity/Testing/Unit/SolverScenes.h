@@ -1,10 +1,13 @@
 // What the tests of the whole solver share: scenes from Data and by seed, and solving them.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "Common/Core/Random.h"
 #include "Common/Testing/TestScenes.h"
+#include "Radiosity/Core/ElementHierarchy.h"
 #include "Radiosity/Core/HierarchicalRadiosity.h"
 #include "Scene/Core/SceneCleaning.h"
 #include "Scene/Core/SceneReader.h"
@@ -30,6 +33,25 @@ inline SolvedScene SolveScene(Scene scene, double error) {
   solved.statistics = solver.Statistics();
   return solved;
 }
+
+/// A scene whose faces are clustered, with both sides of every surface modelled.
+struct ModelledScene {
+  Scene scene;
+  ClusterTree tree;
+  std::vector<uint8_t> lit;
+  std::optional<RayScene> rayScene;
+  std::optional<ElementHierarchy> hierarchy;
+
+  /// Once `scene` is whole.
+  void Model() {
+    CompleteTables(&scene);
+    scene.mesh.Complete();
+    tree = ClusterFaces(&scene.mesh, scene.parts);
+    rayScene.emplace(scene.mesh);
+    lit.assign(tree.surfaceRoots.size(), 3);
+    hierarchy.emplace(scene, tree, lit, LeafMeshOptions());
+  }
+};
 
 /// A scene of Data/, cleaned as a user gets it: "CornellBox" is Data/CornellBox/CornellBox.obj.
 inline Scene DataScene(const std::string& name) {
