@@ -420,4 +420,10 @@ void ElementHierarchy::Split(const std::vector<int32_t>& parents) {
   }
 }
 
+int ElementHierarchy::MostChildren(const Element& element) const {
+  const bool isQuartered =
+      element.IsPolygon() && leafMesh_.Options().refinement == PatchRefinement::Quadtree;
+  return isQuartered ? 4 : 2;
+}
+
 }  // namespace lambert

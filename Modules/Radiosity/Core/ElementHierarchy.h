@@ -48,6 +48,8 @@ class ElementHierarchy {
   /// Gives children to each of `parents` (sorted, unique) that has none and can have some. An
   /// element at the floor is marked canSplit = false instead.
   void Split(const std::vector<int32_t>& parents);
+  /// Children that splitting an element makes, at most.
+  int MostChildren(const Element& element) const;
 
   /// Reflectance and emittance of all elements by those that the faces of the scene have now.
   /// False, with nothing changed, where other surfaces than before emit and do not reflect: these

@@ -138,6 +138,7 @@ struct HierarchicalRadiosity::Implementation {
     SolverState state = this->State();
     LoadSolverState(options.resume, &state);
     secondsBefore = statistics.history.back().seconds;
+    if (statistics.history.size() > 1) before = statistics.history[statistics.history.size() - 2];
   }
 
   const Scene& scene;
@@ -155,9 +156,10 @@ struct HierarchicalRadiosity::Implementation {
   std::unique_ptr<LinkSolution> linkSolution;  ///< while its links are these
   const SolverMemory memory;
   double firstThreshold = kFirstThreshold;
-  bool isFull = false;       ///< the last refinement found no room
-  Timer clock;               ///< since the run began
-  double secondsBefore = 0;  ///< of the runs that this one goes on from
+  std::optional<IterationRecord> before;  ///< the iteration of links before the last
+  bool isFull = false;                    ///< the last refinement found no room
+  Timer clock;                            ///< since the run began
+  double secondsBefore = 0;               ///< of the runs that this one goes on from
   /// Power that the leaves receive, W, largest band; thresholds are fractions of it.
   double received;
 
@@ -207,6 +209,7 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
         statistics.stoppedBy = self.isFull ? "memory" : "interrupt";
         break;
       }
+      if (!statistics.history.empty()) self.before = statistics.history.back();
       statistics.history.push_back({iteration, self.Seconds(), threshold, self.hierarchy.Size(),
                                     self.network.Count(), self.network.rays, change});
     }
@@ -237,7 +240,10 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
     }
     self.linkSolution.reset();
     if (!self.HasTimeFor(iterationTimer.Seconds())) statistics.stoppedBy = "time";
-    if (!self.memory.HasRoomForIteration(statistics.history)) statistics.stoppedBy = "memory";
+    const IterationRecord* before = self.before ? &*self.before : nullptr;
+    if (!self.memory.HasRoomForIteration(before, statistics.history.back())) {
+      statistics.stoppedBy = "memory";
+    }
     threshold *= kThresholdFactor;
   }
   CountElementsAndLinks(self.hierarchy, self.network, &statistics);
@@ -245,16 +251,19 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
 }
 
 // Refines links to `threshold`, not below `last`, and lets light bounce; where there is none to
-// show, goes on at once. False, with the links as they were, where `progress` asked to stop.
+// show, goes on at once. False, with the links as they were, where `progress` asked to stop or
+// there is no room (isFull); room for the first iteration is not asked for.
 bool HierarchicalRadiosity::Implementation::RefineAndExchange(double last, double* threshold,
                                                               double* change,
                                                               const ProgressCallback& progress) {
   const bool isInterleaved = options.schedule == Schedule::Interleaved;
   const auto tolerance = [&] { return *threshold <= last ? kLastSweepTolerance : kSweepTolerance; };
+  const bool isFirst = statistics.history.empty() && !before;
   const RoomCallback hasRoom = [&](int64_t elements, int64_t links) {
-    isFull = !statistics.history.empty() && !memory.HasRoomFor(double(elements), double(links));
+    isFull = !isFirst && !memory.HasRoomFor(double(elements), double(links));
     return !isFull;
   };
+  isFull = false;
   linkSolution.reset();
   for (;; *threshold *= kThresholdFactor) {
     *threshold = std::max(last, *threshold);
@@ -307,8 +316,7 @@ bool HierarchicalRadiosity::Implementation::EndsHere(bool goOn) {
 
 // Light at the points of the mesh by the links alone.
 RadiositySolution HierarchicalRadiosity::Implementation::Reconstruct() {
-  if (!linkSolution || !linkSolution->FitsLeaves()) {
-    linkSolution.reset();
+  if (!linkSolution) {
     const bool keeps = options.keepsTransfers && memory.HasRoomToKeep(network.Count());
     linkSolution =
         std::make_unique<LinkSolution>(&hierarchy, network, light, rayScene, litSides, keeps);
@@ -404,7 +412,9 @@ bool HierarchicalRadiosity::Relight() {
   if (self.linkSolution) self.linkSolution->TakeMaterials();
   if (!self.statistics.history.empty()) {
     self.firstThreshold = self.statistics.history.back().threshold;
+    self.before = self.statistics.history.back();
   }
+  self.secondsBefore = 0;
   self.statistics.history.clear();
   self.statistics.stoppedBy.clear();
   CountElementsAndLinks(self.hierarchy, self.network, &self.statistics);

@@ -236,15 +236,31 @@ std::vector<int32_t> ElementsToSplit(const std::vector<Pair>& pairs,
   return elements;
 }
 
+/// Children of an element once it is split, at most.
+int64_t ChildrenToCome(const ElementHierarchy& hierarchy, int32_t index) {
+  const Element& element = hierarchy[index];
+  return element.IsLeaf() ? hierarchy.MostChildren(element) : element.childCount;
+}
+
+/// Elements that are made where those named are split, at most.
+int64_t ElementsToCome(const std::vector<int32_t>& split, const ElementHierarchy& hierarchy) {
+  int64_t count = 0;
+  for (const int32_t index : split) {
+    if (hierarchy[index].IsLeaf()) count += hierarchy.MostChildren(hierarchy[index]);
+  }
+  return count;
+}
+
 /// Pairs that the verdicts keep or put in the place of others.
 int64_t PairsToCome(const std::vector<Pair>& pairs, const std::vector<Judgement>& judgements,
                     const ElementHierarchy& hierarchy) {
   int64_t count = 0;
   for (size_t i = 0; i < pairs.size(); ++i) {
-    const int64_t children = std::max(2, hierarchy[pairs[i].receiver].childCount);
     const Verdict verdict = judgements[i].verdict;
+    const int32_t split = verdict == Verdict::SplitSource ? pairs[i].source : pairs[i].receiver;
+    const int64_t children = ChildrenToCome(hierarchy, split);
     if (verdict == Verdict::SplitSelf) count += children * children;
-    if (verdict == Verdict::SplitSource || verdict == Verdict::SplitReceiver) count += 2;
+    if (verdict == Verdict::SplitSource || verdict == Verdict::SplitReceiver) count += children;
     if (verdict == Verdict::Keep || verdict == Verdict::KeepAtFloor) ++count;
   }
   return count;
@@ -332,7 +348,7 @@ bool RefineLinks(double threshold, const RefinementOracle& oracle, const RayScen
                     [&](int64_t i) { judgements[size_t(i)] = judge(pairs[size_t(i)]); });
     const std::vector<int32_t> split = ElementsToSplit(pairs, judgements);
     if (hasRoom &&
-        !hasRoom(2 * int64_t(split.size()), PairsToCome(pairs, judgements, *hierarchy))) {
+        !hasRoom(ElementsToCome(split, *hierarchy), PairsToCome(pairs, judgements, *hierarchy))) {
       PutBack(taken, *hierarchy, light, network);
       return false;
     }

@@ -12,19 +12,12 @@ constexpr int64_t kMostOfTriangle = 16, kMostOfLink = 16;
 LinkSolution::LinkSolution(ElementHierarchy* hierarchy, const LinkNetwork& network,
                            const ElementLight& light, const RayScene& rayScene,
                            const std::vector<uint8_t>& litSides, bool keeps)
-    : hierarchy_(*hierarchy),
-      elements_(hierarchy->Size()),
-      patches_(hierarchy->Leaves().PatchCount()),
-      keeps_(keeps),
+    : keeps_(keeps),
       reconstruction_(*hierarchy, network, light, rayScene, &room_),
       mesh_(hierarchy, litSides),
       atPoints_(&room_) {
   if (!keeps) return;
   room_ = kMostOfTriangle * int64_t(mesh_.Triangles().size()) + kMostOfLink * network.Count();
-}
-
-bool LinkSolution::FitsLeaves() const {
-  return elements_ == hierarchy_.Size() && patches_ == hierarchy_.Leaves().PatchCount();
 }
 
 RadiositySolution LinkSolution::Deliver(int64_t* rays, int64_t* made) {

@@ -11,14 +11,12 @@ namespace lambert {
 
 class LinkSolution {
  public:
-  /// Triangulates the leaves. `keeps`: transfers to points and corners stay, up to what
-  /// SolverMemory says of them. All by reference.
+  /// Triangulates the leaves; it is valid until links are refined or leaves cut. `keeps`: transfers
+  /// to points and corners stay, up to what SolverMemory says of them. All by reference.
   LinkSolution(ElementHierarchy* hierarchy, const LinkNetwork& network, const ElementLight& light,
                const RayScene& rayScene, const std::vector<uint8_t>& litSides, bool keeps);
 
   bool Keeps() const { return keeps_; }
-  /// Whether the leaves are still those that were triangulated. Refined links make it invalid, too.
-  bool FitsLeaves() const;
   /// Reflectance and emittance by those that the faces have now.
   void TakeMaterials() { mesh_.TakeMaterials(); }
   /// The solution by the light as it is now. Adds the rays cast to `rays`, and the links
@@ -26,8 +24,6 @@ class LinkSolution {
   RadiositySolution Deliver(int64_t* rays, int64_t* made);
 
  private:
-  const ElementHierarchy& hierarchy_;
-  const int32_t elements_, patches_;  ///< when the leaves were triangulated
   const bool keeps_;
   std::atomic<int64_t> room_{0};  ///< for transfers to be kept
   LightReconstruction reconstruction_;

@@ -44,7 +44,7 @@ struct LinkEvidence {
   bool isCertain = false;  ///< the visibility holds for all pairs of points, not just the sampled
 };
 
-/// A strategy that judges links: how wrong each is held to be. Kept by many threads at once.
+/// A strategy that judges links: how wrong each is held to be. Asked by many threads at once.
 class RefinementOracle {
  public:
   virtual ~RefinementOracle() = default;

@@ -52,15 +52,14 @@ bool SolverMemory::HasRoomFor(double elements, double links) const {
                              std::max(moving, delivery));
 }
 
-bool SolverMemory::HasRoomForIteration(const std::vector<IterationRecord>& history) const {
-  const IterationRecord& last = history.back();
-  if (history.size() == 1) {
+bool SolverMemory::HasRoomForIteration(const IterationRecord* before,
+                                       const IterationRecord& last) const {
+  if (!before) {
     return this->HasRoomFor((kUsualGrowth - 1) * double(last.elements),
                             (kUsualGrowth - 1) * double(last.links));
   }
-  const IterationRecord& before = history[history.size() - 2];
-  return this->HasRoomFor(NextGrowth(before.elements, last.elements),
-                          NextGrowth(before.links, last.links));
+  return this->HasRoomFor(NextGrowth(before->elements, last.elements),
+                          NextGrowth(before->links, last.links));
 }
 
 bool SolverMemory::HasRoomToKeep(int64_t links) const {

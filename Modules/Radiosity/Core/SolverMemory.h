@@ -27,8 +27,9 @@ class SolverMemory {
 
   /// Whether there is room for so many more elements and links, and for delivering what they bring.
   bool HasRoomFor(double elements, double links) const;
-  /// Whether there is likely to be for another iteration of links: by how they grew in the last.
-  bool HasRoomForIteration(const std::vector<IterationRecord>& history) const;
+  /// Whether there is likely to be for another iteration of links: by how they grew in the `last`,
+  /// from the one `before` it; null where it was the first.
+  bool HasRoomForIteration(const IterationRecord* before, const IterationRecord& last) const;
   /// Whether there is for delivering the light of so many links and keeping the mesh and the
   /// transfers to its points.
   bool HasRoomToKeep(int64_t links) const;
