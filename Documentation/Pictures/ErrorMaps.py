@@ -8,7 +8,6 @@ tenth and hundredth of the area hold is printed, and how noisy the path trace is
 """
 import argparse
 import os
-import re
 import sys
 
 import numpy as np
@@ -20,7 +19,7 @@ from vtkmodules.vtkRenderingCore import (vtkActor, vtkColorTransferFunction, vtk
 import lambert
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../Testing/Images"))
-from Pictures import write_picture  # noqa: E402
+from Pictures import named_camera, write_picture  # noqa: E402
 
 SIZE = 720, 512  # Pixels
 STRIP = 0.14  # of the width, for the scale
@@ -67,11 +66,10 @@ def tell(scene, mesh):
 def camera_of(arguments):
     if arguments.camera:
         return [float(x) for x in arguments.camera.split(",")]
-    with open(arguments.scene) as file:
-        found = re.search(r"^# camera (.*)$", file.read(), re.MULTILINE)
-    if not found:
-        raise SystemExit(f"{arguments.scene} names no camera: give one by --camera px,py,pz,fx,fy,fz,fov.")
-    return [float(x) for x in found.group(1).split()]
+    try:
+        return named_camera(arguments.scene)
+    except StopIteration:
+        raise SystemExit(f"{arguments.scene} names no camera: give one by --camera px,py,pz,fx,fy,fz,fov.") from None
 
 
 def draw(mesh, camera, scale):

@@ -3,10 +3,15 @@ from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 
 
-def look_as_named(renderer, scene):
-    """Takes the eye, the point looked at and the field of view of the line `# camera` of an OBJ file."""
+def named_camera(scene):
+    """Eye, point looked at and field of view of the line `# camera` of an OBJ file: seven numbers."""
     with open(scene, encoding="ascii") as text:
-        numbers = next([float(word) for word in line.split()[2:]] for line in text if line.startswith("# camera"))
+        return next([float(word) for word in line.split()[2:]] for line in text if line.startswith("# camera"))
+
+
+def look_as_named(renderer, scene):
+    """Takes the camera that an OBJ file names."""
+    numbers = named_camera(scene)
     camera = renderer.GetActiveCamera()
     camera.SetPosition(numbers[0:3])
     camera.SetFocalPoint(numbers[3:6])

@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "Atlas/Core/SurfaceSubset.h"
 #include "Common/Core/Error.h"
 
 namespace lambert {
@@ -40,7 +41,7 @@ struct Fan {
   std::vector<int32_t> triangles;            ///< of the halfedges, that will have another corner
   std::vector<std::array<int32_t, 2>> rims;  ///< of each: its other corners, counter-clockwise
   std::vector<int32_t> ring;                 ///< all points about, but for `to`
-  double deviation = 0;                      ///< largest so far, W/m2
+  std::array<double, 2> deviation{};         ///< of both lights, largest so far, W/m2
   bool isJoined = true;                      ///< its triangles share their points
 };
 
@@ -73,6 +74,18 @@ struct Plane {
   }
   double Cross(const Vec3d& a, const Vec3d& b) const { return a[u] * b[v] - a[v] * b[u]; }
 };
+
+/// Over the area, W/m2, of the bands' mean: what the light of dark places counts against.
+double MeanLight(const TriangleMesh& mesh, const std::vector<Spectrum>& light) {
+  double power = 0, area = 0;
+  for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
+    for (const int32_t corner : mesh.triangles[size_t(face)]) {
+      power += double(mesh.Area(face)) * double(light[size_t(corner)].Mean()) / 3;
+    }
+    area += double(mesh.Area(face));
+  }
+  return area > 0 ? power / area : 0;
+}
 
 /// The light of a mesh as points are taken out of it, and how far it is from what it was.
 class SimplifiedLight {
@@ -109,7 +122,6 @@ class SimplifiedLight {
     return 2 * solution_.inputFaceId[f] + solution_.side[f];
   }
   Vec3d At(int32_t point) const { return Vec3d(solution_.mesh.positions[size_t(point)]); }
-  const Spectrum& Light(int32_t point) const { return solution_.irradiance[size_t(point)]; }
   Vec3d Where(Halfedges::VertexHandle place) const {
     const OpenMesh::Vec3d& p = halfedges.point(place);
     return {p[0], p[1], p[2]};
@@ -124,31 +136,24 @@ class SimplifiedLight {
   bool IsOnStraightBorder(const CollapseInfo& ci) const;
   std::vector<Fan> FansAbout(const CollapseInfo& ci) const;
   bool KeepsItsShape(const Fan& fan) const;
-  double Change(const Fan& fan) const;
-  double Allowed(const Fan& fan) const;
+  double Change(const Fan& fan, const std::vector<Spectrum>& light) const;
+  double Allowed(const Fan& fan, size_t kind) const;
 
   const RadiositySolution& solution_;
-  double tolerance_, diagonal_;
-  double meanLight_ = 0;           ///< W/m2
-  std::vector<int32_t> placeOf_;   ///< per point of the solution: vertex of the halfedges
-  std::vector<double> deviation_;  ///< per face of the halfedges, W/m2
+  const double tolerance_, diagonal_;
+  const std::array<const std::vector<Spectrum>*, 2> lights_;  ///< irradiance and radiosity
+  std::array<double, 2> meanLight_;                           ///< W/m2
+  std::vector<int32_t> placeOf_;  ///< per point of the solution: vertex of the halfedges
+  std::vector<std::array<double, 2>> deviation_;  ///< per face of the halfedges, W/m2
 };
 
 SimplifiedLight::SimplifiedLight(const RadiositySolution& solution, double tolerance)
     : solution_(solution),
       tolerance_(tolerance),
-      diagonal_(double(solution.mesh.Bounds().Diagonal())) {
-  // The mean light, which that of dark places counts against.
-  const TriangleMesh& mesh = solution.mesh;
-  double power = 0, area = 0;
-  for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
-    for (const int32_t corner : mesh.triangles[size_t(face)]) {
-      power += double(mesh.Area(face)) * double(Light(corner).Mean()) / 3;
-    }
-    area += double(mesh.Area(face));
-  }
-  meanLight_ = area > 0 ? power / area : 0;
-
+      diagonal_(double(solution.mesh.Bounds().Diagonal())),
+      lights_{&solution.irradiance, &solution.radiosity},
+      meanLight_{MeanLight(solution.mesh, solution.irradiance),
+                 MeanLight(solution.mesh, solution.radiosity)} {
   Weld();
   AddFaces();
   LockSeams();
@@ -186,7 +191,7 @@ void SimplifiedLight::AddFaces() {
     }
   }
   omerr().enable();
-  deviation_.assign(faceOf.size(), 0);
+  deviation_.assign(faceOf.size(), {});
 }
 
 /// Places on a border that another border lies on stay, and all that other triangles hold.
@@ -242,7 +247,9 @@ std::vector<Fan> SimplifiedLight::FansAbout(const CollapseInfo& ci) const {
       fan = fans.insert(fans.end(), Fan());
       fan->key = key;
     }
-    fan->deviation = std::max(fan->deviation, deviation_[size_t(face.idx())]);
+    for (size_t kind = 0; kind < 2; ++kind) {
+      fan->deviation[kind] = std::max(fan->deviation[kind], deviation_[size_t(face.idx())][kind]);
+    }
 
     // Its points, which the triangles of the fan share.
     const auto first = halfedges.to_vertex_handle(spoke);
@@ -282,7 +289,8 @@ bool SimplifiedLight::KeepsItsShape(const Fan& fan) const {
 /// The most by which light changes in the fan, W/m2, when `to` takes the place of `from`: it is
 /// linear between their edges, so that it is at the point that goes, or where an edge that it had
 /// crosses one that comes.
-double SimplifiedLight::Change(const Fan& fan) const {
+double SimplifiedLight::Change(const Fan& fan, const std::vector<Spectrum>& light) const {
+  const auto lightAt = [&](int32_t point) -> const Spectrum& { return light[size_t(point)]; };
   const int32_t from = fan.from, to = fan.to;
   const Vec3d p = At(from), q = At(to);
   const Plane plane(Cross(At(fan.rims[0][0]) - p, At(fan.rims[0][1]) - p));
@@ -296,8 +304,8 @@ double SimplifiedLight::Change(const Fan& fan) const {
     const double depth = std::min({s, t, 1 - s - t});
     if (depth <= deepest) continue;
     deepest = depth;
-    change = LargestBand(Light(to) * float(1 - s - t) + Light(a) * float(s) + Light(b) * float(t) -
-                         Light(from));
+    change = LargestBand(lightAt(to) * float(1 - s - t) + lightAt(a) * float(s) +
+                         lightAt(b) * float(t) - lightAt(from));
   }
 
   // Where edges cross.
@@ -308,18 +316,21 @@ double SimplifiedLight::Change(const Fan& fan) const {
       if (i == j || area == 0) continue;
       const double s = plane.Cross(q - p, v) / area, t = plane.Cross(q - p, u) / area;
       if (s < 0 || s > 1 || t < 0 || t > 1) continue;
-      change = std::max(change,
-                        LargestBand(Mix(Light(to), Light(j), t) - Mix(Light(from), Light(i), s)));
+      change = std::max(
+          change, LargestBand(Mix(lightAt(to), lightAt(j), t) - Mix(lightAt(from), lightAt(i), s)));
     }
   }
   return change;
 }
 
 /// W/m2: of the darkest corner that the fan will have.
-double SimplifiedLight::Allowed(const Fan& fan) const {
-  double darkest = double(Light(fan.to).Mean());
-  for (const int32_t point : fan.ring) darkest = std::min(darkest, double(Light(point).Mean()));
-  return tolerance_ * std::max(darkest, meanLight_);
+double SimplifiedLight::Allowed(const Fan& fan, size_t kind) const {
+  const std::vector<Spectrum>& light = *lights_[kind];
+  double darkest = double(light[size_t(fan.to)].Mean());
+  for (const int32_t point : fan.ring) {
+    darkest = std::min(darkest, double(light[size_t(point)].Mean()));
+  }
+  return tolerance_ * std::max(darkest, meanLight_[kind]);
 }
 
 std::optional<std::vector<Fan>> SimplifiedLight::Replaced(const CollapseInfo& ci) const {
@@ -327,8 +338,10 @@ std::optional<std::vector<Fan>> SimplifiedLight::Replaced(const CollapseInfo& ci
   std::vector<Fan> fans = FansAbout(ci);
   for (Fan& fan : fans) {
     if (!fan.isJoined || fan.to < 0 || !KeepsItsShape(fan)) return {};
-    fan.deviation += Change(fan);
-    if (!(fan.deviation <= Allowed(fan))) return {};
+    for (size_t kind = 0; kind < 2; ++kind) {
+      fan.deviation[kind] += Change(fan, *lights_[kind]);
+      if (!(fan.deviation[kind] <= Allowed(fan, kind))) return {};
+    }
   }
   return fans;
 }
@@ -336,7 +349,10 @@ std::optional<std::vector<Fan>> SimplifiedLight::Replaced(const CollapseInfo& ci
 double SimplifiedLight::Cost(const CollapseInfo& ci, const std::vector<Fan>& fans) const {
   double cost = 0;
   for (const Fan& fan : fans) {
-    if (fan.deviation > 0) cost = std::max(cost, fan.deviation / Allowed(fan));
+    for (size_t kind = 0; kind < 2; ++kind) {
+      const double deviation = fan.deviation[kind];
+      if (deviation > 0) cost = std::max(cost, deviation / Allowed(fan, kind));
+    }
   }
   return cost + Length(Where(ci.v1) - Where(ci.v0)) / diagonal_;
 }
@@ -379,48 +395,10 @@ class Watch : public OpenMesh::Decimater::Observer {
   double points_;
 };
 
-/// The faces named, in their order, with the points that they need.
-RadiositySolution Part(const RadiositySolution& whole, const std::vector<int32_t>& faces) {
-  RadiositySolution part;
-  const TriangleMesh& mesh = whole.mesh;
-  std::vector<int32_t> newPoint(mesh.positions.size(), -1);
-  const auto take = [](const auto& from, size_t i, auto* to) {
-    if (!from.empty()) to->push_back(from[i]);
-  };
-  for (const int32_t face : faces) {
-    const size_t f = size_t(face);
-    take(mesh.triangles, f, &part.mesh.triangles);
-    take(mesh.reflectance, f, &part.mesh.reflectance);
-    take(mesh.emittance, f, &part.mesh.emittance);
-    take(mesh.faceFlags, f, &part.mesh.faceFlags);
-    take(mesh.materialId, f, &part.mesh.materialId);
-    take(mesh.partId, f, &part.mesh.partId);
-    take(mesh.surfaceId, f, &part.mesh.surfaceId);
-    take(mesh.sourceCellId, f, &part.mesh.sourceCellId);
-    take(whole.inputFaceId, f, &part.inputFaceId);
-    take(whole.side, f, &part.side);
-    for (const int32_t corner : mesh.triangles[f]) newPoint[size_t(corner)] = 0;
-  }
-  for (size_t point = 0; point < newPoint.size(); ++point) {
-    if (newPoint[point] < 0) continue;
-    newPoint[point] = int32_t(part.mesh.positions.size());
-    take(mesh.positions, point, &part.mesh.positions);
-    take(mesh.normals, point, &part.mesh.normals);
-    take(mesh.uvs, point, &part.mesh.uvs);
-    take(whole.irradiance, point, &part.irradiance);
-    take(whole.radiosity, point, &part.radiosity);
-  }
-  for (auto& triangle : part.mesh.triangles) {
-    for (int32_t& corner : triangle) corner = newPoint[size_t(corner)];
-  }
-  part.inputIrradiance = whole.inputIrradiance;
-  return part;
-}
-
 /// `solution` with the corners that its triangles have now; those that are left.
 RadiositySolution WhatIsLeft(const RadiositySolution& solution, const SimplifiedLight& light) {
   RadiositySolution turned = solution;
-  std::vector<int32_t> faces = light.apart;
+  std::vector<int64_t> faces(light.apart.begin(), light.apart.end());
   for (const auto face : light.halfedges.faces()) {
     const int32_t old = light.faceOf[size_t(face.idx())];
     if (light.halfedges.status(face).deleted()) continue;
@@ -428,7 +406,8 @@ RadiositySolution WhatIsLeft(const RadiositySolution& solution, const Simplified
     turned.mesh.triangles[size_t(old)] = light.corners[size_t(face.idx())];
   }
   std::sort(faces.begin(), faces.end());
-  return Part(turned, faces);
+  turned.leafId.clear();  // A triangle spans several now.
+  return TakeTriangles(turned, faces);
 }
 
 }  // namespace

@@ -10,10 +10,9 @@
 namespace lambert {
 
 struct LitMeshSimplificationOptions {
-  /// By how much light may change anywhere, (0, 1]: in every band a fraction of what is delivered
-  /// there or of the mean light of the mesh, whichever is more (the means of the bands), as the
-  /// bounded error counts it. Radiosity changes by the same fraction, since reflectance is even in
-  /// a face.
+  /// By how much irradiance and radiosity may change anywhere, (0, 1]: in every band a fraction of
+  /// what is delivered there or of the mean of the mesh, whichever is more (the means of the
+  /// bands), as the bounded error counts it.
   double tolerance = 0.02;
 };
 

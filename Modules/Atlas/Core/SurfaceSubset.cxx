@@ -78,6 +78,20 @@ TriangleMesh TakeFaces(const TriangleMesh& mesh, const std::vector<int64_t>& fac
   return taken;
 }
 
+RadiositySolution TakeTriangles(const RadiositySolution& solution,
+                                const std::vector<int64_t>& triangles) {
+  RadiositySolution taken;
+  std::vector<int64_t> points;
+  taken.mesh = TakeFaces(solution.mesh, triangles, &points);
+  taken.inputFaceId = Taken(solution.inputFaceId, triangles);
+  taken.side = Taken(solution.side, triangles);
+  taken.leafId = Taken(solution.leafId, triangles);
+  taken.irradiance = Taken(solution.irradiance, points);
+  taken.radiosity = Taken(solution.radiosity, points);
+  taken.inputIrradiance = solution.inputIrradiance;
+  return taken;
+}
+
 SurfaceSubset TakeSurfaces(const TriangleMesh& mesh, const ClusterTree& tree,
                            const RadiositySolution& solution, const std::vector<char>& isTaken) {
   // Faces and their trees.
@@ -92,17 +106,11 @@ SurfaceSubset TakeSurfaces(const TriangleMesh& mesh, const ClusterTree& tree,
   std::vector<int64_t> numberOfFace(mesh.triangles.size(), -1), triangles;
   for (size_t i = 0; i < faces.size(); ++i) numberOfFace[size_t(faces[i])] = int64_t(i);
   for (size_t t = 0; t < solution.inputFaceId.size(); ++t) {
-    const int64_t face = numberOfFace[size_t(solution.inputFaceId[t])];
-    if (face < 0) continue;
-    triangles.push_back(int64_t(t));
-    subset.solution.inputFaceId.push_back(face);
-    subset.solution.side.push_back(solution.side[t]);
+    if (numberOfFace[size_t(solution.inputFaceId[t])] >= 0) triangles.push_back(int64_t(t));
   }
-  std::vector<int64_t> points;
-  subset.solution.mesh = TakeFaces(solution.mesh, triangles, &points);
-  subset.solution.irradiance = Taken(solution.irradiance, points);
-  subset.solution.radiosity = Taken(solution.radiosity, points);
-  subset.solution.leafId = Taken(solution.leafId, triangles);
+  subset.solution = TakeTriangles(solution, triangles);
+  subset.solution.inputIrradiance.clear();
+  for (int64_t& face : subset.solution.inputFaceId) face = numberOfFace[size_t(face)];
   return subset;
 }
 

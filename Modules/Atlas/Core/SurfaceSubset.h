@@ -24,4 +24,9 @@ SurfaceSubset TakeSurfaces(const TriangleMesh& mesh, const ClusterTree& tree,
 TriangleMesh TakeFaces(const TriangleMesh& mesh, const std::vector<int64_t>& faces,
                        std::vector<int64_t>* points = nullptr);
 
+/// The triangles of `solution` that are named, in that order, with the points that they use; its
+/// inputIrradiance as it is.
+RadiositySolution TakeTriangles(const RadiositySolution& solution,
+                                const std::vector<int64_t>& triangles);
+
 }  // namespace lambert

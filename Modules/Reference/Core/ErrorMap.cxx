@@ -10,30 +10,12 @@ namespace lambert {
 
 namespace {
 
-/// The middle of a triangle, seen from its front: that is the side which its light is of.
-ReceiverPoint CentroidReceiver(const TriangleMesh& mesh, int64_t face) {
-  ReceiverPoint point;
-  point.geometricNormal = mesh.FrontNormal(face);
-  for (int c = 0; c < 3; ++c) {
-    point.position += mesh.Corner(face, c) / 3.f;
-    point.normal += mesh.normals[size_t(mesh.triangles[size_t(face)][size_t(c)])];
-  }
-  point.normal = Normalize(point.normal);
-  if (Dot(point.normal, point.geometricNormal) < 0) point.normal = -point.normal;
-  if (LengthSquared(point.normal) == 0) point.normal = point.geometricNormal;
-  return point;
-}
-
-/// Triangles that receive, as the contract has it: of faces that do not emit; all where all emit.
+/// Per triangle, whether its face receives.
 std::vector<bool> Receiving(const Scene& scene, const RadiositySolution& solution) {
-  const TriangleMesh& mesh = scene.mesh;
+  const std::vector<bool> ofFace = ReceivingFaces(scene.mesh);
   std::vector<bool> receives;
-  for (const int64_t face : solution.inputFaceId) {
-    receives.push_back(!(mesh.Emits(face, kFront) || mesh.Emits(face, kBack)) ||
-                       mesh.emittance[size_t(face)].IsBlack());
-  }
-  const bool allEmit = std::find(receives.begin(), receives.end(), true) == receives.end();
-  return allEmit ? std::vector<bool>(receives.size(), true) : receives;
+  for (const int64_t face : solution.inputFaceId) receives.push_back(ofFace[size_t(face)]);
+  return receives;
 }
 
 /// Mean over the receiving area, W/m2, of the bands' mean.
@@ -60,7 +42,8 @@ ErrorMap MapError(const Scene& scene, const RadiositySolution& solution,
   std::vector<ReceiverPoint> receivers;
   receivers.reserve(mesh.triangles.size());
   for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
-    receivers.push_back(CentroidReceiver(mesh, face));
+    // Seen from its front: that is the side which its light is of.
+    receivers.push_back(ReceiverAt(mesh, face, kFront, Vec2f(1.f / 3, 1.f / 3)));
   }
   PathTracedIrradianceOptions trace;
   trace.samples = options.samples;

@@ -34,37 +34,15 @@ struct Comparison {
   double delivered = 0, truth = 0;  ///< sums of the bands
 };
 
-/// The receiver at barycentric b on one side: its normal is the interpolated one of the mesh,
-/// turned to that side.
-ReceiverPoint ReceiverAt(const TriangleMesh& mesh, int32_t face, Side side, const Vec2f& b) {
-  const std::array<int32_t, 3>& corners = mesh.triangles[size_t(face)];
-  const auto interpolate = [&](const std::vector<Vec3f>& values) {
-    return values[size_t(corners[0])] * (1 - b.x - b.y) + values[size_t(corners[1])] * b.x +
-           values[size_t(corners[2])] * b.y;
-  };
-  ReceiverPoint point;
-  point.position = interpolate(mesh.positions);
-  point.geometricNormal = mesh.FrontNormal(face) * (side == kFront ? 1.f : -1.f);
-  const Vec3f normal = mesh.normals.empty() ? Vec3f() : Normalize(interpolate(mesh.normals));
-  point.normal = Dot(normal, point.geometricNormal) < 0 ? -normal : normal;
-  if (LengthSquared(normal) == 0) point.normal = point.geometricNormal;
-  return point;
-}
-
 /// Places stratified by area over both sides of every face that receives: all fronts, then all
 /// backs. Faces that emit do not count, but where there are no others (a furnace).
 std::vector<Place> StratifiedPlaces(const TriangleMesh& mesh, const SolutionErrorOptions& options) {
   const int64_t count = mesh.FaceCount();
-  const auto emits = [&](int64_t face) {
-    return (mesh.Emits(face, kFront) || mesh.Emits(face, kBack)) &&
-           !mesh.emittance[size_t(face)].IsBlack();
-  };
-  bool allEmit = true;
-  for (int64_t face = 0; face < count; ++face) allEmit = allEmit && emits(face);
+  const std::vector<bool> receives = ReceivingFaces(mesh);
   std::vector<double> upTo(size_t(count), 0);
   double total = 0;
   for (int64_t face = 0; face < count; ++face) {
-    if (allEmit || !emits(face)) total += mesh.Area(face);
+    if (receives[size_t(face)]) total += mesh.Area(face);
     upTo[size_t(face)] = total;
   }
   std::vector<Place> places;
@@ -165,6 +143,33 @@ void Bootstrap(const std::vector<Comparison>& comparisons, uint64_t seed, Soluti
 }
 
 }  // namespace
+
+ReceiverPoint ReceiverAt(const TriangleMesh& mesh, int64_t face, Side side, const Vec2f& b) {
+  const std::array<int32_t, 3>& corners = mesh.triangles[size_t(face)];
+  const auto interpolate = [&](const std::vector<Vec3f>& values) {
+    return values[size_t(corners[0])] * (1 - b.x - b.y) + values[size_t(corners[1])] * b.x +
+           values[size_t(corners[2])] * b.y;
+  };
+  ReceiverPoint point;
+  point.position = interpolate(mesh.positions);
+  point.geometricNormal = mesh.FrontNormal(face) * (side == kFront ? 1.f : -1.f);
+  const Vec3f normal = mesh.normals.empty() ? Vec3f() : Normalize(interpolate(mesh.normals));
+  point.normal = Dot(normal, point.geometricNormal) < 0 ? -normal : normal;
+  if (LengthSquared(normal) == 0) point.normal = point.geometricNormal;
+  return point;
+}
+
+std::vector<bool> ReceivingFaces(const TriangleMesh& mesh) {
+  std::vector<bool> receives(mesh.triangles.size());
+  bool isAny = false;
+  for (size_t face = 0; face < receives.size(); ++face) {
+    const bool emits = mesh.Emits(int64_t(face), kFront) || mesh.Emits(int64_t(face), kBack);
+    receives[face] = !emits || mesh.emittance[face].IsBlack();
+    isAny = isAny || receives[face];
+  }
+  if (!isAny) receives.assign(receives.size(), true);
+  return receives;
+}
 
 void RequireSolutionOf(const Scene& scene, const RadiositySolution& solution) {
   constexpr float kFar = 1e-3f;  // of the diagonal; what is refined lies on its face to rounding

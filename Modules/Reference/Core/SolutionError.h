@@ -44,6 +44,13 @@ struct SolutionError {
   double Counting() const { return this->IsRmsSure() ? rms : bounded; }
 };
 
+/// A place at barycentric `b` (of corners 1 and 2) on one side of a face: its normal is the
+/// interpolated one of the mesh, turned to that side; the face's own where it has none.
+ReceiverPoint ReceiverAt(const TriangleMesh& mesh, int64_t face, Side side, const Vec2f& b);
+
+/// Per face, whether it counts as receiving: it does not emit, or all do (a furnace).
+std::vector<bool> ReceivingFaces(const TriangleMesh& mesh);
+
 /// Throws Error where triangles of `solution` do not lie on the faces of `scene` that they name, to
 /// 1e-3 of the diagonal. Every `inputFaceId` is one of its faces.
 void RequireSolutionOf(const Scene& scene, const RadiositySolution& solution);

@@ -74,6 +74,23 @@ double LargestChange(const RadiositySolution& before, const RadiositySolution& a
   return largest;
 }
 
+// What is reflected differs from face to face of a texture, however even the light: of a wall whose
+// right half is dark, radiosity at the places of points stays within the tolerance.
+TEST(LitMeshSimplification, KeepsRadiosityToo) {
+  const RadiositySolution even = Wall(16, [](float, float) { return Spectrum(1); });
+  RadiositySolution wall = even;
+  for (size_t point = 0; point < wall.radiosity.size(); ++point) {
+    wall.radiosity[point] = Spectrum(wall.mesh.positions[point].x > 0.5f ? 0.1f : 0.9f);
+  }
+  const RadiositySolution simple = SimplifyLitMesh(wall, {0.05});
+  EXPECT_LT(simple.mesh.FaceCount(), wall.mesh.FaceCount() / 2);
+  EXPECT_GT(simple.mesh.FaceCount(), SimplifyLitMesh(even, {0.05}).mesh.FaceCount());
+  // As irradiance, which is what LargestChange looks at.
+  RadiositySolution before = wall, after = simple;
+  before.irradiance = wall.radiosity, after.irradiance = simple.radiosity;
+  EXPECT_LE(LargestChange(before, after, 0.5), 0.05 + 1e-4);
+}
+
 TEST(LitMeshSimplification, LeavesTwoTrianglesOfAnEvenlyLitWall) {
   RadiositySolution wall = Wall(16, [](float, float) { return Spectrum(2); });
   LitMeshSimplificationStatistics statistics;

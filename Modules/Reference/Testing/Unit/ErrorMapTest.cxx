@@ -29,6 +29,14 @@ Scene BoxUnderSky() {
   return scene;
 }
 
+TEST(ErrorMap, TakesTheFacesNormalsWhereASolutionHasNone) {
+  const Scene scene = BoxUnderSky();
+  RadiositySolution solution = FlatSolution(scene, 1, 2, false);
+  solution.mesh.normals.clear();
+  const ErrorMap map = MapError(scene, solution, {64, 1});
+  for (const float error : map.relativeError) EXPECT_NEAR(error, 0, 1e-5);
+}
+
 TEST(ErrorMap, ShowsWhatWasAddedWhereItWasAdded) {
   // Right but for one half of the box, too bright by a tenth, and one triangle, too dark by three.
   const Scene scene = BoxUnderSky();
