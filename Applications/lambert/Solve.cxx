@@ -215,6 +215,7 @@ int Solve(const SolveArguments& arguments) {
   RadiosityRun run(arguments.RunOptions());
   display.Begin("reading");
   run.Load(progress);
+  arguments.RequireUnread(run.Reading().companions);
   const UpAxis up = arguments.UpOf(run.GetScene().mesh);
   run.AddLights(arguments.lights.Lights(Vec3f(FromYUp({0, 1, 0}, up))));
   for (const std::string& warning : run.Warnings()) display.Say("warning: " + warning);

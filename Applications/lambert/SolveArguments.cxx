@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "ArgumentChecks.h"
+#include "Common/Core/Error.h"
 #include "Engine/LitModelFile.h"
 #include "Engine/ObjFile.h"
 #include "Engine/SolutionFile.h"
 #include "FilesOfRun.h"
+#include "Radiosity/Core/SolverState.h"
 
 namespace lambert {
 namespace {
@@ -56,7 +59,7 @@ void AddRefinementOptions(CLI::App* command, HierarchicalRadiosityOptions* solve
       ->default_str("rectangle");
   command
       ->add_option("--snap-tolerance", leafMesh->snapTolerance,
-                   "Splitting lines move to vertices within this part of the rectangle, [0, 0.5)")
+                   "Splitting lines move to vertices within this part of the rectangle, [0, 0.499]")
       ->check(Within(0, 0.499, "from 0 to 0.499"))
       ->capture_default_str();
 }
@@ -117,7 +120,7 @@ void SolveArguments::AddMethodsTo(CLI::App* command) {
       ->capture_default_str();
 
   // How well and how long, of hierarchical radiosity.
-  command->add_option("--error", solver.error, "Wanted relative RMS error of irradiance, (0, 1]")
+  command->add_option("--error", solver.error, "Wanted relative RMS error of irradiance, [1e-6, 1]")
       ->check(Within(1e-6, 1, "from 1e-6 to 1"))
       ->capture_default_str();
   command->add_option("--time", time, "Seconds since the program began, writing included")
@@ -161,25 +164,37 @@ void SolveArguments::Check() const {
   FilesOfRun files(scene.files);
   files.Add("--probe", probe, false);
   files.Add("--resume", solver.resume, false);
-  if (solver.saveState != solver.resume) files.Add("--save-state", solver.saveState, true);
-  files.Add("--output", output, true);
-  if (FileEnding(output) == ".obj") {
-    for (const std::string& name : FilesBesideObj(output, 1)) files.Add("--output", name, true);
+  files.Add("--environment", lights.environment, false);
+  if (!lightMap.empty() && std::filesystem::path(lightMap).extension() != ".vtp") {
+    throw CLI::ValidationError("--lightmap", "the name has to end in .vtp");
   }
-  files.Add("--probe-output", probeOutput, true);
-  files.Add("--image", image, true);
-  files.Add("--report", report, true);
-  if (!lightMap.empty()) {
-    if (std::filesystem::path(lightMap).extension() != ".vtp") {
-      throw CLI::ValidationError("--lightmap", "the name has to end in .vtp");
-    }
-    files.Add("--lightmap", lightMap, true);
-    for (const PageFormat format : pageFormats) {
-      files.Add("--lightmap", LightMapPageNames(lightMap, 1, format).front(), true);
-    }
-  }
+  this->AddOutputs(&files);
   ImageSize();
   ImageCamera(UpAxis::Y);
+}
+
+void SolveArguments::AddOutputs(FilesOfRun* files) const {
+  if (solver.saveState != solver.resume) files->Add("--save-state", solver.saveState, true);
+  if (!solver.saveState.empty()) {
+    files->Add("--save-state", UnfinishedState(solver.saveState), true);
+  }
+  files->Add("--output", output, true);
+  if (FileEnding(output) == ".obj") {
+    for (const std::string& name : FilesBesideObj(output, this->MostPages())) {
+      files->Add("--output", name, true);
+    }
+  }
+  files->Add("--probe-output", probeOutput, true);
+  files->Add("--image", image, true);
+  files->Add("--report", report, true);
+  if (!lightMap.empty()) {
+    files->Add("--lightmap", lightMap, true);
+    for (const PageFormat format : std::set<PageFormat>(pageFormats.begin(), pageFormats.end())) {
+      for (const std::string& name : LightMapPageNames(lightMap, this->MostPages(), format)) {
+        files->Add("--lightmap", name, true);
+      }
+    }
+  }
 }
 
 void SolveArguments::RequireOptionsOfMethod() const {
@@ -191,6 +206,21 @@ void SolveArguments::RequireOptionsOfMethod() const {
       if (command_->count(option) == 0) continue;
       throw CLI::ValidationError(option, "is no option of --method " + chosen.name);
     }
+  }
+}
+
+int SolveArguments::MostPages() const {
+  constexpr int kMostOfTexelSize = 256, kMostChecked = 4096;
+  if (lightMap.empty()) return 1;
+  return std::min(kMostChecked, atlas.texelSize > 0 ? kMostOfTexelSize : atlas.pages);
+}
+
+void SolveArguments::RequireUnread(const std::vector<std::string>& companions) const {
+  FilesOfRun files(companions);
+  try {
+    this->AddOutputs(&files);
+  } catch (const CLI::ValidationError& error) {
+    throw Error(std::string(error.what()) + ", which needs it; name another file.");
   }
 }
 

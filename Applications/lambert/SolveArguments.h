@@ -22,6 +22,8 @@ class App;
 
 namespace lambert {
 
+class FilesOfRun;
+
 struct SolveArguments {
   SceneArguments scene;
   std::string output;
@@ -60,10 +62,16 @@ struct SolveArguments {
   /// The camera that was asked for, if any.
   std::optional<Camera> ImageCamera(UpAxis imageUp) const;
   RadiosityRunOptions RunOptions() const;
+  /// Throws Error where an output would write over one of the files that the scene's
+  /// files named and that were read with them.
+  void RequireUnread(const std::vector<std::string>& companions) const;
 
  private:
   void AddMethodsTo(CLI::App* command);
   void AddOutputsTo(CLI::App* command);
+  void AddOutputs(FilesOfRun* files) const;
+  /// Pages that a light map may have.
+  int MostPages() const;
   /// Throws CLI::ValidationError where an option was given that is another method's.
   void RequireOptionsOfMethod() const;
 

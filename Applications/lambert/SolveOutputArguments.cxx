@@ -46,11 +46,12 @@ void AddToneOptions(CLI::App* command, ToneMappingOptions* tone, bool* dodgingAn
 }
 
 /// Illuminance in place of what the eye sees.
-void AddFalseColorOptions(CLI::App* command, SolveArguments* arguments) {
+void AddFalseColorOptions(CLI::App* command, CLI::Option* image, SolveArguments* arguments) {
   CLI::Option* colors = command
                             ->add_option("--false-colors", arguments->falseColors,
                                          "Picture of illuminance beside a scale: lux, W/m2")
-                            ->check(CLI::IsMember({"lux", "W/m2"}));
+                            ->check(CLI::IsMember({"lux", "W/m2"}))
+                            ->needs(image);
   command->add_option("--range", arguments->falseColorRange, "Ends of the scale")
       ->expected(2)
       ->check(NotNegative())
@@ -125,17 +126,19 @@ void AddMapOutputOptions(CLI::App* command, CLI::Option* lightMap, SolveArgument
 }  // namespace
 
 void SolveArguments::AddOutputsTo(CLI::App* command) {
-  command->add_option("--probe", probe, "CSV of probe points: x,y,z,nx,ny,nz");
+  CLI::Option* probes =
+      command->add_option("--probe", probe, "CSV of probe points: x,y,z,nx,ny,nz");
   command->add_option("--probe-output", probeOutput, "CSV of readings: x,y,z,nx,ny,nz,r,g,b,kind");
-  command->add_flag("--probe-gather", probeGather, "Probes gather on surfaces too");
-  command->add_option("--image", image, "PNG picture (needs an X display, xvfb-run will do)");
+  command->add_flag("--probe-gather", probeGather, "Probes gather on surfaces too")->needs(probes);
+  CLI::Option* picture =
+      command->add_option("--image", image, "PNG picture (needs an X display, xvfb-run will do)");
   command->add_option("--size", size, "Size of the picture, WxH pixels")->capture_default_str();
   command->add_option("--camera", camera, "px,py,pz,fx,fy,fz[,fov]: eye, point looked at, degrees");
   command->add_option("--up", up, "What is up for picture, sun and skies: auto, x, y, z")
       ->check(CLI::IsMember({"auto", "x", "y", "z"}))
       ->capture_default_str();
   AddToneOptions(command, &tone, &dodgingAndBurning);
-  AddFalseColorOptions(command, this);
+  AddFalseColorOptions(command, picture, this);
   CLI::Option* map = command->add_option(
       "--lightmap", lightMap, "Mesh with texture coordinates, .vtp, its pages beside it");
   for (CLI::Option* option : AddAtlasOptions(command, &atlas)) option->needs(map);

@@ -45,5 +45,7 @@ void vtkRadiosityLightMap::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "SeamPoints: " << this->SeamPoints << "\n"
      << indent << "SeamRmsBefore: " << this->SeamRmsBefore << "\n"
      << indent << "SeamRmsAfter: " << this->SeamRmsAfter << "\n"
+     << indent << "LargestSeamBefore: " << this->LargestSeamBefore << "\n"
+     << indent << "LargestSeamAfter: " << this->LargestSeamAfter << "\n"
      << indent << "NumberOfDrawings: " << this->NumberOfDrawings << "\n";
 }

@@ -121,4 +121,7 @@ void vtkSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "TexelSize: " << this->GetTexelSize() << "\n"
      << indent << "Padding: " << this->GetPadding() << "\n"
      << indent << "Stretch: " << this->GetStretch() << "\n";
+  for (const auto& [material, kind] : this->Options->ByMaterial) {
+    os << indent << "Representation of " << material << ": " << static_cast<int>(kind) << "\n";
+  }
 }

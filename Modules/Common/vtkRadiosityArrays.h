@@ -57,7 +57,7 @@ class LAMBERTCOMMON_EXPORT vtkRadiosityArrays : public vtkObject {
   static const char* PartMeshId() { return "Part.MeshId"; }  ///< int, the same for instances
   static const char* PartObjectToWorld() { return "Part.ObjectToWorld"; }  ///< 16 double, row-major
   static const char* LightName() { return "Light.Name"; }                  ///< string
-  static const char* LightType() { return "Light.Type"; }  ///< point, spot, directional, sky
+  static const char* LightType() { return "Light.Type"; }  ///< int; the names stand in DataModel.md
   static const char* LightPosition() { return "Light.Position"; }    ///< 3 float, m
   static const char* LightDirection() { return "Light.Direction"; }  ///< 3 float, unit
   static const char* LightIntensity() { return "Light.Intensity"; }  ///< W/sr, W/m2, W/(m2 sr)

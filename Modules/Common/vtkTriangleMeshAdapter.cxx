@@ -29,7 +29,12 @@ void WriteScalars(vtkDataSetAttributes* data, const char* name, const std::vecto
 
 /// Reflectance is clamped to [0, 0.98]; emittance that makes no sense is an error.
 void BringIntoRange(TriangleMesh* mesh) {
-  for (Spectrum& reflectance : mesh->reflectance) {
+  for (size_t face = 0; face < mesh->reflectance.size(); ++face) {
+    Spectrum& reflectance = mesh->reflectance[face];
+    if (!reflectance.IsFinite()) {
+      throw Error("Cell " + std::to_string(face) +
+                  " has a reflectance that is not a finite number; repair the input.");
+    }
     for (int band = 0; band < 3; ++band) {
       reflectance[band] = std::min(kMaximumReflectance, std::max(0.f, reflectance[band]));
     }

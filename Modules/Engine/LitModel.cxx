@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 namespace lambert {
@@ -221,12 +222,15 @@ LitMesh MeshOfPage(const TriangleMesh& split, const std::vector<Vec2f>& textureC
 LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
                       const LitModelOptions& options) {
   LitModel model = EmptyModel(scene, solution);
-  const BaseTextures textures(scene);
+  std::optional<BaseTextures> textures;
+  if (options.texturesAtPoints) {
+    textures.emplace(scene);
+  }
   const ToneMapping toneMapping = AdaptTo(solution, options.tone);
   std::vector<int64_t> triangles(solution.mesh.triangles.size());
   std::iota(triangles.begin(), triangles.end(), int64_t(0));
-  const BaseTextures* shown = options.texturesAtPoints ? &textures : nullptr;
-  PointLitMeshes(scene, solution, shown, toneMapping, &model).Add(triangles);
+  PointLitMeshes(scene, solution, textures ? &*textures : nullptr, toneMapping, &model)
+      .Add(triangles);
   return model;
 }
 

@@ -2,6 +2,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Timer.h"
+#include "Scene/Core/SceneLimits.h"
 #include "Scene/vtkSceneLoader.h"
 
 #include <algorithm>
@@ -112,14 +113,15 @@ void RadiosityRun::Load(const ProgressCallback& progress) {
 }
 
 void RadiosityRun::AddLights(const std::vector<Light>& lights) {
+  RequireSolvableLights(lights);
   this->scene_.lights.insert(this->scene_.lights.end(), lights.begin(), lights.end());
 }
 
 void RadiosityRun::RequireLight() const {
   if (!this->scene_.HasLight()) {
     throw lambert::Error(
-        "The scene has no light: no face emits and no lamp is given; add one with --sky R G B, "
-        "--sun or --set MATERIAL:emission=R,G,B.");
+        "The scene has no light: no face emits and no lamp is given; add one with --sky, "
+        "--sky-gradient, --environment, --sun or --set MATERIAL:emission=R,G,B.");
   }
 }
 

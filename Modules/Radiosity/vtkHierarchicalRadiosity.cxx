@@ -107,6 +107,14 @@ void RequireOptions(const lambert::HierarchicalRadiosityOptions& options) {
     throw lambert::Error("The memory limit is " + std::to_string(options.memoryLimit) +
                          " MB; it must not be negative.");
   }
+  if (!(options.timeLimit >= 0)) {
+    throw lambert::Error("The time limit is " + std::to_string(options.timeLimit) +
+                         " s; it must not be negative.");
+  }
+  if (options.iterations < 0) {
+    throw lambert::Error("The iterations are " + std::to_string(options.iterations) +
+                         "; there are 0 (as many as it takes) or more.");
+  }
   if (options.verificationPoints < 0) {
     throw lambert::Error("The error is verified at 0 points or more, not at " +
                          std::to_string(options.verificationPoints) + ".");

@@ -97,6 +97,7 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   int GetSchedule();
   void SetScheduleToScheduled() { this->SetSchedule(SCHEDULED); }
   void SetScheduleToInterleaved() { this->SetSchedule(INTERLEAVED); }
+  ///@}
   ///@{ Whether elements, links and visibility stay in memory after a run; default on. Where the
   /// input then comes with other `Reflectance`, `Emittance` or emitting sides and nothing else has
   /// changed, the light they have there is shown at once, to observers of UpdateDataEvent too, and

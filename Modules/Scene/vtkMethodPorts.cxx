@@ -1,6 +1,8 @@
 #include "vtkMethodPorts.h"
 
 #include "Common/Core/Error.h"
+#include "Scene/Core/EnvironmentImage.h"
+#include "Scene/Core/SceneCleaning.h"
 #include "Scene/Core/SceneLimits.h"
 #include "vtkDoubleArray.h"
 #include "vtkFloatArray.h"
@@ -35,9 +37,10 @@ void AddSky(const double radiance[3], Scene* scene) {
 
 MethodScene MethodSceneFromPolyData(vtkPolyData* input, const double sky[3]) {
   MethodScene methodScene;
-  methodScene.scene = SceneFromPolyData(input);
-  RequireSolvableSize(methodScene.scene.mesh);
-  methodScene.inputTriangles = SceneAsStoredInPolyData(input).mesh.triangles;
+  methodScene.scene =
+      SceneFromPolyData(input, CleaningOptions().featureAngle, &methodScene.inputTriangles);
+  RequireSolvableMesh(methodScene.scene.mesh);
+  ReadEnvironmentImages(&methodScene.scene.lights);
   methodScene.inputFace.resize(methodScene.scene.mesh.triangles.size());
   std::iota(methodScene.inputFace.begin(), methodScene.inputFace.end(), 0);
   AddSky(sky, &methodScene.scene);

@@ -85,8 +85,12 @@ Scene SceneAsStoredInPolyData(vtkPolyData* input) {
   return scene;
 }
 
-Scene SceneFromPolyData(vtkPolyData* input, double featureAngle) {
+Scene SceneFromPolyData(vtkPolyData* input, double featureAngle,
+                        std::vector<std::array<int32_t, 3>>* storedTriangles) {
   Scene scene = SceneAsStoredInPolyData(input);
+  if (storedTriangles) {
+    *storedTriangles = scene.mesh.triangles;
+  }
   if (!HasUnitNormals(scene.mesh)) {
     MeshTopology topology = ConnectFaces(scene.mesh);
     CompletePointNormals(featureAngle, &scene.mesh, &topology);
@@ -126,6 +130,14 @@ RadiositySolution SolutionFromPolyData(vtkPolyData* input) {
       RequireArray(pointData, Names::Irradiance(), 3, points), Names::Irradiance());
   solution.radiosity = TuplesFromArray<Spectrum>(
       RequireArray(pointData, Names::Radiosity(), 3, points), Names::Radiosity());
+  for (const int64_t face : solution.inputFaceId) {
+    if (face < 0) throw Error("The solution names a face below 0; it takes a method's output.");
+  }
+  for (size_t point = 0; point < points; ++point) {
+    if (solution.irradiance[point].IsFinite() && solution.radiosity[point].IsFinite()) continue;
+    throw Error("The light at point " + std::to_string(point) +
+                " of the solution is not a finite number; repair it.");
+  }
   return solution;
 }
 }  // namespace lambert

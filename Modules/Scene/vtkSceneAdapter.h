@@ -16,8 +16,12 @@ namespace lambert {
 /// triangles, each with the SourceCellId of the cell that it came from; vertices and lines are left
 /// out. A mesh without point normals gets them, within `featureAngle` degrees: its own points keep
 /// their numbers, copies where it is creased follow them. Throws Error for arrays of the wrong
-/// length or number of components and for values out of range.
-LAMBERTSCENE_EXPORT Scene SceneFromPolyData(vtkPolyData* input, double featureAngle = 30);
+/// length or number of components and for values out of range. Images of environments are left to
+/// whoever asks for their light (ReadEnvironmentImages). `storedTriangles`, if given, gets the
+/// triangles with the points of `input`.
+LAMBERTSCENE_EXPORT Scene
+SceneFromPolyData(vtkPolyData* input, double featureAngle = 30,
+                  std::vector<std::array<int32_t, 3>>* storedTriangles = nullptr);
 
 /// The same with no normals made: where `input` has none, the mesh has none.
 LAMBERTSCENE_EXPORT Scene SceneAsStoredInPolyData(vtkPolyData* input);

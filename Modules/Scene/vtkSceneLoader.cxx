@@ -1,6 +1,7 @@
 #include "vtkSceneLoader.h"
 
 #include "Common/Core/Error.h"
+#include "Scene/Core/EnvironmentImage.h"
 #include "Scene/Core/SceneLimits.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
@@ -240,6 +241,7 @@ Scene LoadScene(const std::vector<std::string>& files, const SceneReaderOptions&
   for (const std::string& file : vtpFiles) {
     vtkSmartPointer<vtkPolyData> stored = ReadVtp(file);
     Scene scene = SceneAsStoredInPolyData(stored);
+    ReadEnvironmentImages(&scene.lights);
     ApplyOptions(stored, readerOptions, &scene);
     Scale(metresPerUnit, &scene);
     for (size_t i = 0; i < scene.parts.size(); ++i) {
@@ -262,7 +264,7 @@ Scene LoadScene(const std::vector<std::string>& files, const SceneReaderOptions&
 
   // Clean and place.
   Scene scene = AssembleScene(std::move(assembly), cleaningOptions, cleaningReport, half(0.5));
-  RequireSolvableSize(scene.mesh);
+  RequireSolvableMesh(scene.mesh);
 
   // Parts that were stored in the world get back the matrices they were stored with.
   for (const auto& [part, matrix] : storedMatrices) {

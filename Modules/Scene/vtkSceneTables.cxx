@@ -1,7 +1,6 @@
 #include "vtkSceneTables.h"
 
 #include "Common/Core/Error.h"
-#include "Scene/Core/EnvironmentImage.h"
 #include "Scene/Core/SceneLimits.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -205,9 +204,6 @@ void ReadLights(vtkFieldData* fields, std::vector<Light>* lights) {
   RequireSolvableLights(l);
   for (Light& light : l) {
     light.direction = Normalize(light.direction);
-    if (light.type == LightType::Environment) {
-      light.image = ReadEnvironmentImage(light.imageFile);
-    }
   }
 }
 

@@ -1,5 +1,6 @@
 """Every failure has its exit code and one clear sentence, and leaves no output behind."""
 import os
+import shutil
 
 from CommandLine import CORNELL_BOX, DATA, fails, run, temporary
 
@@ -33,13 +34,31 @@ fails(2, "solve", CORNELL_BOX, "-o", out, "--tone", "cubist", says=["--tone"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--up", "w", says=["--up"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--false-colors", "nit", says=["--false-colors"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--isolines", says=["--isolines", "--false-colors"])
-fails(2, "solve", CORNELL_BOX, "-o", out, "--false-colors", "lux", "--range", "5", "5", says=["--range"])
+picture = temporary("never.png")
+fails(2, "solve", CORNELL_BOX, "-o", out, "--image", picture, "--false-colors", "lux", "--range", "5", "5",
+      says=["--range"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--false-colors", "lux", says=["--image"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--probe-gather", says=["--probe"])
 
 # No output may write over what is read or over another output.
 scene = temporary("scene.ply")
 fails(2, "solve", scene, "-o", os.path.join(os.path.dirname(scene), ".", "scene.ply"), says=["write over", "SCENE"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--report", out, says=["write over", "--output"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--probe", out, "--probe-output", out, says=["write over"])
+sky = temporary("sky.hdr")
+fails(2, "solve", CORNELL_BOX, "-o", out, "--environment", sky, "--save-state", sky, says=["write over"])
+state = temporary("state")
+fails(2, "solve", CORNELL_BOX, "-o", out, "--save-state", state, "--report", state + ".part", says=["write over"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--lightmap", temporary("map.vtp"), "--report", temporary("map-0.hdr"),
+      says=["write over"])
+
+# Nor over what the scene's files name, which is known once they are read.
+room, library = temporary("room.obj"), temporary("room.mtl")
+shutil.copyfile(os.path.splitext(CORNELL_BOX)[0] + ".mtl", library)
+with open(CORNELL_BOX) as box, open(room, "w") as file:
+    file.write(box.read().replace("CornellBox.mtl", "room.mtl"))
+fails(1, "solve", room, "-o", out, "--report", library, "--progress", "none", says=["write over", "SCENE"])
+assert os.path.getsize(library) == os.path.getsize(os.path.splitext(CORNELL_BOX)[0] + ".mtl")
 
 # Scenes that cannot be read or lit: 1.
 fails(1, "solve", "missing.obj", "-o", out, says=["missing.obj"])
@@ -101,6 +120,11 @@ for name in ("full.vtp", "full.ply"):
     os.symlink("/dev/full", full)
     fails(1, "solve", CORNELL_BOX, "-o", full, "--iterations", "1", "--progress", "none", says=["could not be written"])
     os.remove(full)
+for name in ("map-0.hdr", "map-0.png"):
+    os.symlink("/dev/full", temporary(name))
+    fails(1, "solve", CORNELL_BOX, "-o", out, "--iterations", "1", "--progress", "none", "--lightmap",
+          temporary("map.vtp"), "--page-format", name[-3:], says=["could not be written"])
+    os.remove(os.path.join(os.path.dirname(out), name))
 
 # Probe points are checked, with the line, before solving.
 probes, readings = temporary("probes.csv"), temporary("readings.csv")

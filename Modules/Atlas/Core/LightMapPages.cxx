@@ -8,6 +8,7 @@
 #include <stb_image_write.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "Common/Core/Error.h"
 
@@ -44,6 +45,23 @@ void WriteExr(const std::string& name, int size, std::vector<Spectrum> rows) {
   file.writePixels(size);
 }
 
+/// What stb makes, to a file.
+class BytesOfImage {
+ public:
+  static void Append(void* self, void* bytes, int size) {
+    auto& all = static_cast<BytesOfImage*>(self)->bytes_;
+    all.append(static_cast<const char*>(bytes), size_t(size));
+  }
+  bool Write(const std::string& name) const {
+    std::ofstream file(name, std::ios::binary);
+    file.write(bytes_.data(), std::streamsize(bytes_.size()));
+    return bool(file.flush());
+  }
+
+ private:
+  std::string bytes_;
+};
+
 bool WritePng(const std::string& name, int size, const std::vector<Spectrum>& rows,
               const TexelCodes& codes) {
   std::vector<uint8_t> bytes;
@@ -51,11 +69,16 @@ bool WritePng(const std::string& name, int size, const std::vector<Spectrum>& ro
   for (const Spectrum& texel : rows) {
     for (const uint8_t code : codes(texel)) bytes.push_back(code);
   }
-  return stbi_write_png(name.c_str(), size, size, 3, bytes.data(), 3 * size) != 0;
+  BytesOfImage png;
+  return stbi_write_png_to_func(BytesOfImage::Append, &png, size, size, 3, bytes.data(),
+                                3 * size) &&
+         png.Write(name);
 }
 
 bool WriteHdr(const std::string& name, int size, const std::vector<Spectrum>& rows) {
-  return stbi_write_hdr(name.c_str(), size, size, 3, &rows[0].r) != 0;
+  BytesOfImage hdr;
+  return stbi_write_hdr_to_func(BytesOfImage::Append, &hdr, size, size, 3, &rows[0].r) &&
+         hdr.Write(name);
 }
 
 const char* EndingOf(PageFormat format) {

@@ -104,17 +104,11 @@ std::vector<double> MapErrors(const RepresentedScene& scene) {
 RadiositySolution OnBrighterSides(const SurfaceSubset& subset) {
   const RadiositySolution& all = subset.solution;
   const std::vector<uint8_t> sides = BrighterSidesOfSurfaces(subset.mesh, all);
-  RadiositySolution kept;
-  std::vector<int64_t> triangles, points;
+  std::vector<int64_t> triangles;
   for (size_t t = 0; t < all.inputFaceId.size(); ++t) {
-    if (all.side[t] != sides[SurfaceOf(subset.mesh, all, t)]) continue;
-    triangles.push_back(int64_t(t));
-    kept.inputFaceId.push_back(all.inputFaceId[t]);
-    kept.side.push_back(all.side[t]);
+    if (all.side[t] == sides[SurfaceOf(subset.mesh, all, t)]) triangles.push_back(int64_t(t));
   }
-  kept.mesh = TakeFaces(all.mesh, triangles, &points);
-  for (const int64_t point : points) kept.irradiance.push_back(all.irradiance[size_t(point)]);
-  return kept;
+  return TakeTriangles(all, triangles);
 }
 
 template <class T>

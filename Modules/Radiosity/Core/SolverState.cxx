@@ -209,9 +209,11 @@ uint64_t HashOfFile(std::ifstream* file, uint64_t size) {
 
 }  // namespace
 
+std::string UnfinishedState(const std::string& fileName) { return fileName + ".part"; }
+
 void SaveSolverState(const SolverState& state, const std::string& fileName) {
   // Under another name first: a run that is cut short leaves the state before whole.
-  const std::string unfinished = fileName + ".part";
+  const std::string unfinished = UnfinishedState(fileName);
   StateWriter writer(unfinished);
   Splits splits = SplitsOf(state.hierarchy);
   writer(HeaderFor(state.hierarchy, state.hierarchy.Size() - splits.children));
@@ -221,6 +223,7 @@ void SaveSolverState(const SolverState& state, const std::string& fileName) {
   const bool isWhole = writer.Finish();
   if (isWhole) std::filesystem::rename(unfinished, fileName, failed);
   if (!isWhole || failed) {
+    std::filesystem::remove(unfinished, failed);
     throw Error("The state " + fileName + " could not be written; give a place with room for it.");
   }
 }

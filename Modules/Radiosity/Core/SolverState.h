@@ -24,8 +24,12 @@ struct SolverState {
 };
 
 /// Writes `state` to a file, whole or not at all: under another name first. About 75 bytes an
-/// element and 19 a link, little endian. Throws Error where it cannot be written.
+/// element and 19 a link, little endian. Throws Error where it cannot be written; nothing of it is
+/// left then.
 void SaveSolverState(const SolverState& state, const std::string& fileName);
+
+/// The other name under which a state is written first.
+std::string UnfinishedState(const std::string& fileName);
 
 /// Brings the `state` of a solver that has not iterated yet to that of the file, to the bit. Throws
 /// Error where RequireSolverState does, for a file of another scene (other geometry or clusters,

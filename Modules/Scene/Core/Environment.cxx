@@ -9,6 +9,7 @@
 #include "Scene/Core/Compass.h"
 #include "Scene/Core/EnvironmentImage.h"
 #include "Scene/Core/LightKinds.h"
+#include "Scene/Core/SceneLimits.h"
 
 namespace lambert {
 
@@ -29,12 +30,21 @@ class Environment : public LightSource {
         rotation_(double(light.rotation)),
         compass_(Normalize(-light.direction)) {
     if (!image_) throw Error("The light \"" + light.name + "\" has no environment image.");
+    RequireSolvable(light);
     FindLimit();
     FindBrightParts();
     for (int i = 0; i < image_->Count(); ++i) {
       for (int band = 0; band < 3; ++band) {
         largest_[band] = std::max(largest_[band], Even(i)[band] * scale_[band]);
       }
+    }
+  }
+
+  void RequireSolvable(const Light& light) const {
+    for (int i = 0; i < image_->Count(); ++i) {
+      if (IsSolvable(scale_ * image_->Texel(i))) continue;
+      throw Error("The light \"" + light.name +
+                  "\" is brighter than 1e30 somewhere; scale it down.");
     }
   }
 

@@ -1,11 +1,13 @@
 #include "Scene/Core/EnvironmentImage.h"
 
-#include <stb_image.h>
-
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "Common/Core/Error.h"
+#include "Scene/Core/RadianceFile.h"
+#include "Scene/Core/SceneLimits.h"
 
 namespace lambert {
 
@@ -17,8 +19,8 @@ EnvironmentImage::EnvironmentImage(int width, int height, std::vector<Spectrum> 
   double sum[3] = {};
   for (int i = 0; i < Count(); ++i) {
     const Spectrum& texel = Texel(i);
-    if (!texel.IsFinite() || std::min({texel.r, texel.g, texel.b}) < 0) {
-      throw Error("An environment image has a texel that is negative or not a finite number.");
+    if (!IsSolvable(texel)) {
+      throw Error("An environment image has a texel that is negative, not a number or over 1e30.");
     }
     for (int band = 0; band < 3; ++band) sum[band] += double(texel[band]) * SolidAngle(i);
   }
@@ -48,19 +50,26 @@ ImageDirection EnvironmentImage::PlaceOn(int index, const Vec2f& u) const {
 
 std::shared_ptr<const EnvironmentImage> ReadEnvironmentImage(const std::string& fileName) {
   const std::string name = "The environment image " + fileName;
-  if (!stbi_is_hdr(fileName.c_str())) {
+  std::ifstream file(fileName, std::ios::binary);
+  const std::vector<char> content{std::istreambuf_iterator<char>(file), {}};
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(content.data());
+  if (!IsRadiance(bytes, content.size())) {
     throw Error(name + " is not there or not a Radiance HDR file (.hdr); give one.");
   }
-  int width = 0, height = 0, channels = 0;
-  const std::unique_ptr<float, void (*)(void*)> pixels(
-      stbi_loadf(fileName.c_str(), &width, &height, &channels, 3), stbi_image_free);
-  if (!pixels) throw Error(name + " is damaged or too large.");
-  std::vector<Spectrum> texels(size_t(width) * size_t(height));
-  for (size_t i = 0; i < texels.size(); ++i) {
-    const float* const p = pixels.get() + 3 * i;
-    texels[i] = {p[0], p[1], p[2]};
+  RadiancePixels image;
+  try {
+    image = DecodeRadiance(bytes, content.size());
+  } catch (const Error& error) {
+    throw Error(name + " " + error.what() + "; give a whole one.");
   }
-  return std::make_shared<const EnvironmentImage>(width, height, std::move(texels));
+  return std::make_shared<const EnvironmentImage>(image.width, image.height,
+                                                  std::move(image.texels));
+}
+
+void ReadEnvironmentImages(std::vector<Light>* lights) {
+  for (Light& light : *lights) {
+    if (light.type == LightType::Environment) light.image = ReadEnvironmentImage(light.imageFile);
+  }
 }
 
 }  // namespace lambert

@@ -7,6 +7,7 @@
 
 #include "Common/Core/Spectrum.h"
 #include "Common/Core/Vector.h"
+#include "Scene/Core/Light.h"
 
 namespace lambert {
 
@@ -44,5 +45,7 @@ class EnvironmentImage {
 
 /// Reads a Radiance HDR file. Throws Error where it is none or cannot be read.
 std::shared_ptr<const EnvironmentImage> ReadEnvironmentImage(const std::string& fileName);
+/// Reads those of all environments among `lights`, from the files that they name.
+void ReadEnvironmentImages(std::vector<Light>* lights);
 
 }  // namespace lambert

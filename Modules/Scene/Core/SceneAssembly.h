@@ -12,6 +12,7 @@ namespace lambert {
 /// Counts of what readers met; the report is written from it.
 struct ReadReport {
   std::vector<std::string> files;
+  std::vector<std::string> companions;  ///< what those named and was read: libraries, buffers, images
   std::string unit;                  ///< name of the length unit that was taken, "m" where none was declared
   double metresPerUnit = 1;
   int64_t faces = 0;                 ///< as they stand in the files, polygons counted once

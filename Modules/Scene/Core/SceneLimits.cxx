@@ -8,7 +8,13 @@
 
 namespace lambert {
 
-void RequireSolvableSize(const TriangleMesh& mesh) {
+void RequireSolvableMesh(const TriangleMesh& mesh) {
+  for (size_t face = 0; face < mesh.emittance.size(); ++face) {
+    if (IsSolvable(mesh.emittance[face])) continue;
+    throw Error("Face " + std::to_string(face) +
+                " has an exitance that is negative, not a number or over 1e30 W/m2; repair the "
+                "input.");
+  }
   if (mesh.positions.empty()) return;
   const Box3f bounds = mesh.Bounds();
   const double diagonal = Length(Vec3d(bounds.high) - Vec3d(bounds.low));
@@ -25,9 +31,9 @@ void RequireSolvableLights(const std::vector<Light>& lights) {
   for (const Light& light : lights) {
     const std::string name = "The light \"" + light.name + "\"";
     for (const Spectrum& given : {light.intensity, light.horizon, light.ground}) {
-      if (given.IsFinite() && std::min({given.r, given.g, given.b}) >= 0) continue;
-      throw Error(name +
-                  " has an intensity that is negative or not a finite number; repair the input.");
+      if (IsSolvable(given)) continue;
+      throw Error(name + " has an intensity that is negative, not a number or over 1e30; repair " +
+                  "the input.");
     }
     if (!IsWithinReach(light.position)) {
       throw Error(

@@ -25,10 +25,12 @@ namespace {
 /// the disk for all others.
 class PreparedFile : public Assimp::DefaultIOSystem {
  public:
-  PreparedFile(std::string path, const std::string& bytes)
-      : path_(std::move(path)), bytes_(bytes) {}
+  /// Adds the other files that are opened to `companions`.
+  PreparedFile(std::string path, const std::string& bytes, std::vector<std::string>* companions)
+      : path_(std::move(path)), bytes_(bytes), companions_(companions) {}
 
   Assimp::IOStream* Open(const char* path, const char* mode) override {
+    if (path != path_ && Exists(path)) companions_->push_back(path);
     if (path != path_ && FileExtension(path_) == "obj" && Exists(path)) {
       const std::string text = MtlText(path);
       auto* const bytes = new uint8_t[text.size()];
@@ -43,6 +45,7 @@ class PreparedFile : public Assimp::DefaultIOSystem {
  private:
   std::string path_;
   const std::string& bytes_;
+  std::vector<std::string>* companions_;
 };
 
 Matrix4 ToMatrix(const aiMatrix4x4& m) {
@@ -136,7 +139,7 @@ void FileReader::Prepare() {
 
 void FileReader::Import() {
   // No step of the importer joins, drops or reorders; polygons stay polygons.
-  importer_.SetIOHandler(new PreparedFile(path_, bytes_));
+  importer_.SetIOHandler(new PreparedFile(path_, bytes_, &context_.assembly.report.companions));
   scene_ = importer_.ReadFile(path_, 0);
   if (!scene_ || !scene_->mRootNode) {
     const std::string cause = importer_.GetErrorString();
@@ -385,6 +388,8 @@ SceneAssembly ReadScene(const std::vector<std::string>& files, const SceneReader
   }
 
   // Textures that are not there leave their factor alone.
+  std::vector<std::string>& companions = assembly.report.companions;
+  companions.insert(companions.end(), textures.Files().begin(), textures.Files().end());
   for (const std::string& name : textures.Missing()) {
     context.Warn("The texture \"" + name +
                  "\" is missing or cannot be decoded; its factor counts alone.");

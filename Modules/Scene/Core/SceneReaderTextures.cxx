@@ -7,6 +7,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "Common/Core/Error.h"
+#include "Scene/Core/RadianceFile.h"
+
 namespace lambert {
 
 namespace {
@@ -55,6 +58,7 @@ std::string TextureLibrary::Key(const std::string& name, const TextureDecoding& 
 int32_t TextureLibrary::AddFile(const std::string& path, const TextureDecoding& decoding) {
   const auto known = rows_.find(Key(path, decoding));
   if (known != rows_.end()) return known->second;
+  files_.push_back(path);
   std::ifstream stream(path, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
   return AddMemory(path, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
@@ -69,15 +73,15 @@ int32_t TextureLibrary::AddMemory(const std::string& name, const unsigned char* 
 
   // High dynamic range images hold linear values as they are.
   int width = 0, height = 0, channels = 0;
-  if (size > 0 && stbi_is_hdr_from_memory(bytes, int(size))) {
-    float* values = stbi_loadf_from_memory(bytes, int(size), &width, &height, &channels, 4);
-    if (!values) return NoteMissing(key, name);
-    Level level{width, height, std::vector<TextureValue>(size_t(width) * size_t(height))};
-    for (size_t i = 0; i < level.texels.size(); ++i) {
-      level.texels[i].colour = {values[4 * i], values[4 * i + 1], values[4 * i + 2]};
+  if (IsRadiance(bytes, size)) {
+    try {
+      const RadiancePixels image = DecodeRadiance(bytes, size);
+      Level level{image.width, image.height, std::vector<TextureValue>(image.texels.size())};
+      for (size_t i = 0; i < level.texels.size(); ++i) level.texels[i].colour = image.texels[i];
+      return Add(key, std::move(level));
+    } catch (const Error&) {
+      return NoteMissing(key, name);
     }
-    stbi_image_free(values);
-    return Add(key, std::move(level));
   }
 
   unsigned char* rgba =

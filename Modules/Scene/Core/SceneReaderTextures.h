@@ -72,6 +72,8 @@ class TextureLibrary {
   /// The image as it came in; null where it came decoded or is of high dynamic range.
   std::shared_ptr<const TextureSource> Source(const TextureMap& map) const;
 
+  /// The files that images were looked for in.
+  const std::vector<std::string>& Files() const { return files_; }
   /// Names of the images that could not be read, each once.
   const std::vector<std::string>& Missing() const { return missing_; }
 
@@ -88,6 +90,7 @@ class TextureLibrary {
   int32_t NoteMissing(const std::string& key, const std::string& name);
 
   std::vector<Pyramid> images_;
+  std::vector<std::string> files_;
   std::map<int32_t, std::shared_ptr<const TextureSource>> sources_;  ///< by row
   std::map<std::string, int32_t> rows_;
   std::vector<std::string> missing_;

@@ -419,9 +419,9 @@ TEST(SceneCleaning, RefusesSizesWhoseAreasFloatsCannotHold) {
     for (const size_t i : {0, 5, 10}) assembly.parts[0].objectToWorld[i] = scale;
     const Scene scene = AssembleScene(assembly);
     if (solvable) {
-      EXPECT_NO_THROW(RequireSolvableSize(scene.mesh)) << scale;
+      EXPECT_NO_THROW(RequireSolvableMesh(scene.mesh)) << scale;
     } else {
-      EXPECT_THROW(RequireSolvableSize(scene.mesh), Error) << scale;
+      EXPECT_THROW(RequireSolvableMesh(scene.mesh), Error) << scale;
     }
   }
 }
