@@ -2,11 +2,9 @@
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkPolyData.h>
-#include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "Atlas/vtkAtlasAdapter.h"
@@ -14,7 +12,8 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
-#include "Engine/SolutionFile.h"
+#include "Common/Core/OutputFile.h"
+#include "Engine/PolyDataFile.h"
 #include "Interrupt.h"
 #include "ProgressDisplay.h"
 
@@ -66,9 +65,7 @@ void WriteReport(const RadiosityAtlas& atlas, const std::string& fileName) {
       {"utilisation", atlas.utilisation},
       {"largest_stretch", LargestStretch(atlas.set)},
       {"seconds", {{"charts", atlas.chartSeconds}, {"pack", atlas.packSeconds}}}};
-  std::ofstream file(fileName);
-  file << report.dump(2) << '\n';
-  if (!file.flush()) throw Error("The report " + fileName + " could not be written.");
+  WriteOutput(fileName, report.dump(2) + '\n');
 }
 
 }  // namespace
@@ -103,10 +100,7 @@ int Atlas(const AtlasArguments& arguments) {
   display.Begin("write");
   vtkNew<vtkPolyData> mesh;
   PolyDataFromAtlas(atlas, run.GetScene(), mesh);
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputData(mesh);
-  writer->SetFileName(arguments.output.c_str());
-  if (!writer->Write()) throw Error("The output " + arguments.output + " could not be written.");
+  WritePolyData(mesh, arguments.output);
   if (!arguments.image.empty()) WriteCharts(atlas, arguments.image);
   if (!arguments.report.empty()) WriteReport(atlas, arguments.report);
   display.EndStage();

@@ -2,10 +2,10 @@
 #include <vtkPolyData.h>
 
 #include <cstdio>
-#include <fstream>
 
 #include "Commands.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/OutputFile.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Timer.h"
 #include "Display/vtkRadiosityImageWriter.h"
@@ -89,7 +89,7 @@ void ReadProbes(const SolveArguments& arguments, const RadiosityRun& run,
 }
 
 /// The solution with its numbers, or the model that viewers draw.
-void WriteOutput(const SolveArguments& arguments, RadiosityRun* run) {
+void WriteLight(const SolveArguments& arguments, RadiosityRun* run) {
   if (!IsLitModelFileName(arguments.output)) {
     WriteSolution(run->Solution(), run->GetScene(), arguments.output, arguments.tone,
                   arguments.bothSides);
@@ -122,9 +122,7 @@ void DrawLightMap(const SolveArguments& arguments, const ProgressCallback& progr
 }
 
 void WriteReport(const std::string& fileName, const RadiosityRun& run) {
-  std::ofstream file(fileName);
-  file << RunReportJson(run, LAMBERT_VERSION) << '\n';
-  if (!file.flush()) throw Error("The report " + fileName + " could not be written.");
+  WriteOutput(fileName, RunReportJson(run, LAMBERT_VERSION) + '\n');
 }
 
 /// An interrupt leaves the error unmeasured; the report is written all the same.
@@ -235,7 +233,7 @@ int Solve(const SolveArguments& arguments) {
   if (arguments.simplification && !IsInterrupted()) {
     Simplify(arguments, progress, &display, &run);
   }
-  Stage("write", &display, &run, [&] { WriteOutput(arguments, &run); });
+  Stage("write", &display, &run, [&] { WriteLight(arguments, &run); });
   if (!arguments.probe.empty()) {
     Stage("probe", &display, &run, [&] { ReadProbes(arguments, run, probes); });
   }
@@ -247,6 +245,7 @@ int Solve(const SolveArguments& arguments) {
   display.EndStage();
   display.Finish();
   PrintSummary(arguments, run);
+  if (!run.Statistics().stateFailure.empty()) throw Error(run.Statistics().stateFailure);
   return 0;
 }
 

@@ -1,34 +1,22 @@
 #include "LightMapFile.h"
 
 #include "Atlas/vtkAtlasAdapter.h"
-#include "Common/Core/Error.h"
+#include "PolyDataFile.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
-#include "vtkXMLPolyDataWriter.h"
 
 namespace lambert {
-namespace {
-void WriteMesh(vtkPolyData* mesh, const std::string& fileName) {
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputData(mesh);
-  writer->SetFileName(fileName.c_str());
-  if (!writer->Write()) {
-    throw Error("The light map " + fileName + " could not be written.");
-  }
-}
-}  // namespace
-
 void WriteLightMap(const RadiosityAtlas& atlas, const Scene& scene, const std::string& fileName) {
   vtkNew<vtkPolyData> mesh;
   PolyDataFromAtlas(atlas, scene, mesh);
-  WriteMesh(mesh, fileName);
+  WritePolyData(mesh, fileName);
 }
 
 void WriteRepresentedScene(const RepresentedScene& represented, const Scene& scene,
                            const std::string& fileName) {
   vtkNew<vtkPolyData> mesh;
   PolyDataFromRepresentedScene(represented, scene, mesh);
-  WriteMesh(mesh, fileName);
+  WritePolyData(mesh, fileName);
 }
 
 void WritePages(const LightMap& map, const RadiositySolution& solution,

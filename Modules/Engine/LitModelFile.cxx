@@ -1,24 +1,12 @@
 #include "LitModelFile.h"
 
-#include "Common/Core/Error.h"
+#include "Common/Core/OutputFile.h"
 #include "GltfFile.h"
 #include "HtmlFile.h"
 #include "ObjFile.h"
 #include "SolutionFile.h"
 
-#include <fstream>
-
 namespace lambert {
-namespace {
-void WriteBytes(const std::string& bytes, const std::string& fileName) {
-  std::ofstream file(fileName, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!file.flush()) {
-    throw Error("The file " + fileName + " could not be written.");
-  }
-}
-}  // namespace
-
 bool IsLitModelFileName(const std::string& fileName) {
   const std::string ending = FileEnding(fileName);
   return ending == ".glb" || ending == ".gltf" || ending == ".html" || ending == ".obj";
@@ -27,11 +15,11 @@ bool IsLitModelFileName(const std::string& fileName) {
 void WriteLitModel(const LitModel& model, const std::string& fileName) {
   const std::string ending = FileEnding(fileName);
   if (ending == ".html") {
-    WriteBytes(HtmlOf(model), fileName);
+    WriteOutput(fileName, HtmlOf(model));
   } else if (ending == ".obj") {
     WriteObj(model, fileName);
   } else {
-    WriteBytes(ending == ".glb" ? GlbOf(model) : GltfOf(model), fileName);
+    WriteOutput(fileName, ending == ".glb" ? GlbOf(model) : GltfOf(model));
   }
 }
 }  // namespace lambert

@@ -1,11 +1,10 @@
 #include "ObjFile.h"
 
-#include "Common/Core/Error.h"
+#include "Common/Core/OutputFile.h"
 #include "PngImage.h"
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 namespace lambert {
 namespace {
@@ -21,14 +20,6 @@ void AppendLine(const char* word, std::string* text, Numbers... numbers) {
     *text += digits;
   }
   *text += '\n';
-}
-
-void WriteBytes(const std::string& bytes, const std::string& name) {
-  std::ofstream file(name, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!file.flush()) {
-    throw Error("The file " + name + " could not be written.");
-  }
 }
 
 std::string NameOfMaterial(size_t mesh) { return "light_" + std::to_string(mesh); }
@@ -100,12 +91,12 @@ void WriteObj(const LitModel& model, const std::string& fileName) {
     points += model.meshes[mesh].positions.size();
     coords += model.meshes[mesh].textureCoords.size();
   }
-  WriteBytes(text, fileName);
+  WriteOutput(fileName, text);
 
   // Their materials and images, beside them.
-  WriteBytes(MaterialLibrary(model, files), files[0]);
+  WriteOutput(files[0], MaterialLibrary(model, files));
   for (size_t image = 0; image < model.images.size(); ++image) {
-    WriteBytes(PngOf(model.images[image]), files[1 + image]);
+    WriteOutput(files[1 + image], PngOf(model.images[image]));
   }
 }
 }  // namespace lambert

@@ -1,6 +1,7 @@
 #include "ProbeFile.h"
 
 #include "Common/Core/Error.h"
+#include "Common/Core/OutputFile.h"
 #include "Scene/Core/SceneLimits.h"
 
 #include <algorithm>
@@ -82,7 +83,7 @@ std::vector<ProbePoint> ReadProbeFile(const std::string& fileName) {
 
 void WriteProbeFile(const std::string& fileName, const std::vector<ProbePoint>& points,
                     const std::vector<ProbeReading>& readings) {
-  std::ofstream file(fileName);
+  std::ostringstream file;
   file.precision(9);  // Nine digits bring a float back as it was.
   file << "x,y,z,nx,ny,nz,r,g,b,kind\n";
   for (size_t i = 0; i < points.size(); ++i) {
@@ -91,8 +92,6 @@ void WriteProbeFile(const std::string& fileName, const std::vector<ProbePoint>& 
     file << p.x << ',' << p.y << ',' << p.z << ',' << n.x << ',' << n.y << ',' << n.z << ',' << e.r
          << ',' << e.g << ',' << e.b << ',' << ProbeKindName(readings[i].kind) << '\n';
   }
-  if (!file.flush()) {
-    throw Error("The probe output " + fileName + " could not be written.");
-  }
+  WriteOutput(fileName, file.str());
 }
 }  // namespace lambert

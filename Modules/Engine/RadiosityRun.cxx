@@ -81,6 +81,9 @@ class TimeBudget {
   double SecondsForMesh = 0, SecondsPerLink = kUsualSecondsPerLink;
 };
 
+/// Faces stray where a scene is so many times as large as the place of nearly all of them.
+constexpr double kStraying = 1000;
+
 bool IsTooLargeOrSmall(const Scene& scene) {
   const float diagonal = scene.mesh.Bounds().Diagonal();
   return !scene.lights.empty() && (diagonal > 1000 || diagonal < 0.01f);
@@ -274,6 +277,15 @@ std::vector<std::string> RadiosityRun::Warnings() const {
                        std::to_string(this->scene_.mesh.Bounds().Diagonal()) +
                        " m across and has lamps of given intensity; --unit may be wanted.");
   }
+  const double across = this->scene_.mesh.Bounds().Diagonal();
+  if (const double most = DiagonalOfMost(this->scene_.mesh);
+      most > 0 && across > kStraying * most) {
+    warnings.push_back("The scene measures " + std::to_string(across) +
+                       " m across, nearly all of its faces " + std::to_string(most) +
+                       " m: light passes gaps and walls thinner than a hundred-thousandth of the "
+                       "former; remove what strays.");
+  }
+  if (!this->statistics_.stateFailure.empty()) warnings.push_back(this->statistics_.stateFailure);
   if (this->error_ && this->error_->points == 0) {
     warnings.push_back("No error was measured: no place was found that receives light.");
   } else if (this->error_ &&

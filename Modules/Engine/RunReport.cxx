@@ -203,6 +203,9 @@ std::string RunReportJson(const RadiosityRun& run, const std::string& version) {
   const SolverStatistics& s = run.Statistics();
   report["threads"] = ThreadCount();
   report["seconds"] = SecondsJson(run);
+  for (const auto& [stage, seconds] : run.Statistics().stages.All()) {
+    report["seconds_of_solve"][stage] = seconds;
+  }
   report["peak_memory_bytes"] = PeakMemoryBytes();
 
   // How the light came about.

@@ -1,59 +1,32 @@
 #include "SolutionFile.h"
 
-#include "Common/Core/Error.h"
+#include "Common/Core/OutputFile.h"
+#include "PolyDataFile.h"
 #include "Scene/vtkSceneAdapter.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
-#include "vtkXMLPolyDataWriter.h"
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <numeric>
 
 namespace lambert {
 namespace {
 namespace fs = std::filesystem;
 
-bool EndsWith(const std::string& fileName, const std::string& end) {
-  std::ifstream file(fileName, std::ios::binary);
-  std::string tail(end.size(), ' ');
-  file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
-  return file.read(tail.data(), static_cast<std::streamsize>(tail.size())) && tail == end;
-}
-
 void WriteVtp(const RadiositySolution& solution, const Scene& scene, const std::string& fileName) {
   vtkNew<vtkPolyData> data;
   PolyDataFromSolution(solution, scene, data);
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputData(data);
-  writer->SetFileName(fileName.c_str());
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToLZ4();  // zlib takes longer than many a solution.
-  // A full disk is no error to VTK's writer: see whether the end arrived.
-  if (!writer->Write() || writer->GetErrorCode() != 0 || !EndsWith(fileName, "</VTKFile>\n")) {
-    throw Error("The file " + fileName + " could not be written.");
-  }
+  WritePolyData(data, fileName);
 }
 
 /// Little-endian values one after the other, as every machine that VTK 9 runs on in Debian holds
 /// them.
-class ByteWriter {
- public:
-  template <class T>
-  void Put(const T& value) {
-    const char* bytes = reinterpret_cast<const char*>(&value);
-    this->Bytes.insert(this->Bytes.end(), bytes, bytes + sizeof(T));
-  }
-  const std::vector<char>& Data() const { return this->Bytes; }
-
- private:
-  std::vector<char> Bytes;
-};
+template <class T>
+void Put(const T& value, std::string* bytes) {
+  bytes->append(reinterpret_cast<const char*>(&value), sizeof(T));
+}
 
 std::string PlyHeader(size_t points, size_t triangles) {
   std::string header = "ply\nformat binary_little_endian 1.0\ncomment irradiance in W/m2, linear\n";
@@ -83,28 +56,23 @@ void WritePly(const RadiositySolution& solution, const std::string& fileName,
 
   // Points with their light.
   const ToneMapping toneMapping(LuminanceSamples(mesh, solution.radiosity), options);
-  ByteWriter body;
+  std::string file = PlyHeader(used.size(), triangles.size());
   for (int32_t point : used) {
     const size_t i = static_cast<size_t>(point);
-    body.Put(mesh.positions[i]);
-    body.Put(mesh.normals.empty() ? Vec3f() : mesh.normals[i]);
-    body.Put(toneMapping.ApplyToBytes(solution.radiosity[i]));
-    body.Put(solution.irradiance[i]);
+    Put(mesh.positions[i], &file);
+    Put(mesh.normals.empty() ? Vec3f() : mesh.normals[i], &file);
+    Put(toneMapping.ApplyToBytes(solution.radiosity[i]), &file);
+    Put(solution.irradiance[i], &file);
   }
 
   // Triangles.
   for (int64_t triangle : triangles) {
-    body.Put(static_cast<uint8_t>(3));
+    Put(static_cast<uint8_t>(3), &file);
     for (int32_t point : mesh.triangles[static_cast<size_t>(triangle)]) {
-      body.Put(number[static_cast<size_t>(point)]);
+      Put(number[static_cast<size_t>(point)], &file);
     }
   }
-  std::ofstream file(fileName, std::ios::binary);
-  file << PlyHeader(used.size(), triangles.size());
-  file.write(body.Data().data(), static_cast<std::streamsize>(body.Data().size()));
-  if (!file.flush()) {
-    throw Error("The file " + fileName + " could not be written.");
-  }
+  WriteOutput(fileName, file);
 }
 }  // namespace
 
@@ -117,30 +85,6 @@ std::string FileEnding(const std::string& fileName) {
 
 bool IsSolutionFileName(const std::string& fileName) {
   return FileEnding(fileName) == ".vtp" || FileEnding(fileName) == ".ply";
-}
-
-void RequireWritable(const std::string& fileName) {
-  const fs::path path(fileName);
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) {
-    throw Error("The output " + fileName + " cannot be written: there is no folder " +
-                folder.string() + ".");
-  }
-  if (fs::is_directory(path, ignored)) {
-    throw Error("The output " + fileName + " cannot be written: it is a folder.");
-  }
-  // Rights alone do not say it: try, and leave no trace.
-  const bool isNew = !fs::exists(path, ignored);
-  errno = 0;
-  const bool opens = static_cast<bool>(std::ofstream(fileName, std::ios::app));
-  const int reason = errno;
-  if (!opens) {
-    throw Error("The output " + fileName + " cannot be written: " + std::strerror(reason) + ".");
-  }
-  if (isNew) {
-    fs::remove(path, ignored);
-  }
 }
 
 std::vector<int64_t> BrighterSides(const RadiositySolution& solution) {

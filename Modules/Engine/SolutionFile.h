@@ -25,10 +25,6 @@ LAMBERTENGINE_EXPORT void WriteSolution(const RadiositySolution& solution, const
                                         const ToneMappingOptions& toneMapping = {},
                                         bool bothSides = false);
 
-/// Throws Error, one sentence, where `fileName` cannot be written: no such folder, no right, a
-/// folder itself.
-LAMBERTENGINE_EXPORT void RequireWritable(const std::string& fileName);
-
 /// Triangles of `solution` to be shown without culling: of each input face its brighter side, by
 /// the mean luminance of radiosity over the side.
 LAMBERTENGINE_EXPORT std::vector<int64_t> BrighterSides(const RadiositySolution& solution);

@@ -182,6 +182,8 @@ int vtkHierarchicalRadiosity::RequestData(vtkInformation*, vtkInformationVector*
     if (isRelit) show();
     solver.Run(progress, [&](const lambert::IterationRecord&) { return show(); });
     this->StoppedBy = solver.Statistics().stoppedBy;
+    const std::string& failure = solver.Statistics().stateFailure;
+    if (!failure.empty()) vtkWarningMacro(<< failure);
 
     // Deliver.
     const lambert::RadiositySolution solution = solver.Solution();

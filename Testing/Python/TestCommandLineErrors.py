@@ -120,6 +120,14 @@ for name in ("full.vtp", "full.ply"):
     os.symlink("/dev/full", full)
     fails(1, "solve", CORNELL_BOX, "-o", full, "--iterations", "1", "--progress", "none", says=["could not be written"])
     os.remove(full)
+
+# A state that cannot be saved takes nothing else with it.
+full = temporary("full.state.part")
+os.symlink("/dev/full", full)
+fails(1, "solve", CORNELL_BOX, "-o", out, "--iterations", "1", "--progress", "none", "--save-state", full[:-5],
+      says=["The state", "could not be written"])
+assert os.path.exists(out)
+os.remove(out)
 for name in ("map-0.hdr", "map-0.png"):
     os.symlink("/dev/full", temporary(name))
     fails(1, "solve", CORNELL_BOX, "-o", out, "--iterations", "1", "--progress", "none", "--lightmap",

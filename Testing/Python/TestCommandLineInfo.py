@@ -1,5 +1,6 @@
 """`lambert info` counts what is there."""
 import json
+import os
 
 from CommandLine import CORNELL_BOX, run, temporary
 
@@ -32,3 +33,11 @@ assert kept["clean_up"]["repeated_triangles"] == 0 and kept["scene"]["triangles"
 # For people.
 text = run("info", CORNELL_BOX).stdout
 assert "triangles" in text and "emitting" in text and "material" in text
+
+# A stray point far away makes rays skip whole walls: said.
+stray = temporary("stray.obj")
+with open(CORNELL_BOX) as box, open(stray, "w") as file:
+    file.write(box.read().replace("mtllib ", "mtllib " + os.path.dirname(CORNELL_BOX) + "/"))
+    file.write("v 1e5 0 0\nv 1e5 1 0\nv 1e5 0 1\nf -3 -2 -1\n")
+assert any("strays" in warning for warning in json.loads(run("info", stray, "--json").stdout)["warnings"])
+assert not any("strays" in warning for warning in report["warnings"])

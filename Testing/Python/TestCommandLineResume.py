@@ -46,6 +46,7 @@ arguments = ["solve", CORNELL_BOX, "-o", resumed, "--progress", "none", "--resum
 fails(1, *arguments, "--set", "Red:reflectance=0.1,0.1,0.1", says=[state, "other materials", "from the beginning"])
 fails(1, *arguments, "--sky", "1", "1", "1", says=[state, "other lights"])
 fails(1, *arguments, "--unit", "cm", says=[state, "other geometry"])
+fails(1, *arguments, "--refinement", "quadtree", says=[state, "another refinement"])
 with open(state, "r+b") as file:
     file.truncate(os.path.getsize(state) - 1)
 fails(1, *arguments, says=[state, "cut short"])

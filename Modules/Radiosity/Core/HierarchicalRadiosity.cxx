@@ -121,9 +121,12 @@ struct HierarchicalRadiosity::Implementation {
       : scene(Checked(scene_)),
         options(options_),
         emittingSides(EmittingSides(scene_.mesh)),
-        rayScene(scene_.mesh),
-        litSides(FindLitSides(scene_, tree, rayScene, &statistics.rays)),
-        hierarchy(scene_, tree, litSides, options_.leafMesh),
+        rayScene(statistics.stages.Time("rays", [&] { return RayScene(scene_.mesh); })),
+        litSides(statistics.stages.Time(
+            "lit sides", [&] { return FindLitSides(scene_, tree, rayScene, &statistics.rays); })),
+        hierarchy(statistics.stages.Time(
+            "elements",
+            [&] { return ElementHierarchy(scene_, tree, litSides, options_.leafMesh); })),
         oracle(MakeRefinementOracle(options_.oracle, hierarchy, rayScene)),
         memory(options_.memoryLimit, hierarchy, litSides),
         received(SourcePower(scene_)) {
@@ -166,11 +169,23 @@ struct HierarchicalRadiosity::Implementation {
   SolverState State() {
     return {hierarchy, light, network, exposures, received, statistics.history};
   }
+  /// What cannot be saved must not take with it what is solved.
+  void SaveState() {
+    if (options.saveState.empty()) return;
+    try {
+      SaveSolverState(this->State(), options.saveState);
+      statistics.stateFailure.clear();
+    } catch (const Error& error) {
+      statistics.stateFailure = error.what();
+    }
+  }
   double Seconds() const { return secondsBefore + clock.Seconds(); }
   bool RefineAndExchange(double last, double* threshold, double* change,
                          const ProgressCallback& progress);
   double Exchange(double tolerance);
+  double Bounce(double tolerance);
   RadiositySolution Reconstruct();
+  RadiositySolution LightOfLinks();
   bool EndsHere(bool goOn);
   bool EndsVerified(Verification* verification);
   bool HasTimeFor(double seconds) const {
@@ -215,7 +230,7 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
     }
 
     // The border of an iteration: the only place where a run ends.
-    if (!self.options.saveState.empty()) SaveSolverState(self.State(), self.options.saveState);
+    self.SaveState();
     const bool goOn = (!observer || observer(statistics.history.back())) && part(1, "iterating");
     if (self.EndsHere(goOn)) break;
 
@@ -247,7 +262,9 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
     threshold *= kThresholdFactor;
   }
   CountElementsAndLinks(self.hierarchy, self.network, &statistics);
-  MeasureEnergyBalance(self.hierarchy, self.network, self.light, self.rayScene, &statistics);
+  statistics.stages.Time("energy balance", [&] {
+    MeasureEnergyBalance(self.hierarchy, self.network, self.light, self.rayScene, &statistics);
+  });
 }
 
 // Refines links to `threshold`, not below `last`, and lets light bounce; where there is none to
@@ -268,17 +285,20 @@ bool HierarchicalRadiosity::Implementation::RefineAndExchange(double last, doubl
   for (;; *threshold *= kThresholdFactor) {
     *threshold = std::max(last, *threshold);
     do {
-      if (!RefineLinks(*threshold * received, *oracle, rayScene, &hierarchy, &light, &network,
-                       progress, hasRoom)) {
-        return false;
-      }
+      const bool isRefined = statistics.stages.Time("links", [&] {
+        return RefineLinks(*threshold * received, *oracle, rayScene, &hierarchy, &light, &network,
+                           progress, hasRoom);
+      });
+      if (!isRefined) return false;
       delivered.reset();
       *change = this->Exchange(isInterleaved ? kOneSweep : tolerance());
     } while (isInterleaved && *threshold <= last && *change > kSweepTolerance);
     if (*threshold <= last || ReceivedPower(hierarchy, light) > 0) break;
   }
-  SplitByExposure(kExposureThreshold * *threshold * received, rayScene, &hierarchy, &light,
-                  &network, &exposures);
+  statistics.stages.Time("exposure", [&] {
+    SplitByExposure(kExposureThreshold * *threshold * received, rayScene, &hierarchy, &light,
+                    &network, &exposures);
+  });
   network.incoming.resize(size_t(hierarchy.Size()));
   this->Exchange(isInterleaved && *threshold > last ? kOneSweep : tolerance());
   received = std::max(received, ReceivedPower(hierarchy, light));
@@ -288,6 +308,10 @@ bool HierarchicalRadiosity::Implementation::RefineAndExchange(double last, doubl
 // Bounces until they settle. Sampled row sums scatter about 1 without bias; where a loose bound on
 // them lets light grow, tighter ones do not.
 double HierarchicalRadiosity::Implementation::Exchange(double tolerance) {
+  return statistics.stages.Time("exchange", [&] { return this->Bounce(tolerance); });
+}
+
+double HierarchicalRadiosity::Implementation::Bounce(double tolerance) {
   double change = 1;
   for (const float bound : {1.25f, 1.1f, 1.f, 0.7f}) {
     BoundRowSums(hierarchy, network, bound, &light);
@@ -316,6 +340,10 @@ bool HierarchicalRadiosity::Implementation::EndsHere(bool goOn) {
 
 // Light at the points of the mesh by the links alone.
 RadiositySolution HierarchicalRadiosity::Implementation::Reconstruct() {
+  return statistics.stages.Time("reconstruction", [&] { return this->LightOfLinks(); });
+}
+
+RadiositySolution HierarchicalRadiosity::Implementation::LightOfLinks() {
   if (!linkSolution) {
     const bool keeps = options.keepsTransfers && memory.HasRoomToKeep(network.Count());
     linkSolution =
@@ -331,7 +359,8 @@ RadiositySolution HierarchicalRadiosity::Implementation::Reconstruct() {
 bool HierarchicalRadiosity::Implementation::EndsVerified(Verification* verification) {
   if (options.verificationPoints > 0) {
     if (!delivered) delivered = this->Reconstruct();
-    statistics.history.back().error = verification->Measure(*delivered);
+    statistics.history.back().error =
+        statistics.stages.Time("verification", [&] { return verification->Measure(*delivered); });
   }
   statistics.stoppedBy = verification->Verdict();
   return !statistics.stoppedBy.empty();
@@ -356,12 +385,16 @@ void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
       };
       try {
         if (!solution) {
-          solution.emplace(&self.hierarchy, &self.light, self.rayScene, self.litSides,
-                           GatherFor(self.options.error), &self.network.rays);
+          statistics.stages.Time("gather at leaves", [&] {
+            solution.emplace(&self.hierarchy, &self.light, self.rayScene, self.litSides,
+                             GatherFor(self.options.error), &self.network.rays);
+          });
         }
         if (round == 0) {
-          solution->Gather(NoiseFor(aim), part);
-        } else if (!solution->Cut(kInterpolationShare * aim, part)) {
+          statistics.stages.Time("gather at points",
+                                 [&] { solution->Gather(NoiseFor(aim), part); });
+        } else if (!statistics.stages.Time(
+                       "cuts", [&] { return solution->Cut(kInterpolationShare * aim, part); })) {
           break;
         }
         self.delivered = solution->Deliver();

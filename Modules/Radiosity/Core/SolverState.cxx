@@ -16,7 +16,7 @@ namespace {
 /// What a file begins with.
 constexpr std::array<char, 8> kMagic{'L', 'a', 'm', 'b', 'e', 'r', 't', 'S'};
 /// Of the file and of all that elements and links follow from: another one is refused.
-constexpr uint64_t kVersion = 1;
+constexpr uint64_t kVersion = 2;
 /// Bytes that are read, written and hashed together.
 constexpr size_t kBlock = size_t(1) << 20;
 
@@ -88,7 +88,7 @@ class StateReader {
 struct Header {
   std::array<char, 8> magic = kMagic;
   uint64_t version = kVersion;
-  uint64_t geometry = 0, materials = 0, lights = 0;
+  uint64_t geometry = 0, cuts = 0, materials = 0, lights = 0;
   uint64_t firstElements = 0;  ///< that there are before any is split
 };
 
@@ -97,8 +97,7 @@ Header HeaderFor(const ElementHierarchy& hierarchy, int64_t firstElements) {
   Header header;
   header.geometry = HashOf(hierarchy.Tree().nodes, key.geometry);
   const LeafMeshOptions& patches = hierarchy.Leaves().Options();
-  header.geometry =
-      HashOf<float>({float(patches.refinement), patches.snapTolerance}, header.geometry);
+  header.cuts = HashOf<float>({float(patches.refinement), patches.snapTolerance}, 0);
   header.materials = key.materials;
   header.lights = key.lights;
   header.firstElements = uint64_t(firstElements);
@@ -261,12 +260,13 @@ void LoadSolverState(const std::string& fileName, SolverState* state) {
   Header header;
   reader(header);
   const Header own = HeaderFor(state->hierarchy, state->hierarchy.Size());
-  const std::string other = header.geometry != own.geometry     ? "geometry"
-                            : header.materials != own.materials ? "materials"
-                            : header.lights != own.lights       ? "lights"
-                                                                : "";
+  const std::string other = header.geometry != own.geometry     ? "a scene with other geometry"
+                            : header.materials != own.materials ? "a scene with other materials"
+                            : header.lights != own.lights       ? "a scene with other lights"
+                            : header.cuts != own.cuts ? "another refinement or snap tolerance"
+                                                      : "";
   if (!other.empty()) {
-    throw Error("The state " + fileName + " belongs to a scene with other " + other +
+    throw Error("The state " + fileName + " belongs to " + other +
                 "; give the scene and the options that it was saved with, or solve from the "
                 "beginning.");
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "Common/Core/StageSeconds.h"
 #include "Common/Core/TriangleMesh.h"
 
 namespace lambert {
@@ -39,7 +40,9 @@ struct SolverStatistics {
   /// Of the hierarchical method; others leave it 0 and count it as absorbed.
   Spectrum covered;
   std::vector<IterationRecord> history;
-  std::string stoppedBy;  ///< error | time | iterations | interrupt | memory | floor
+  StageSeconds stages;       ///< wall-clock seconds, those before a stop and go on left out
+  std::string stoppedBy;     ///< error | time | iterations | interrupt | memory | floor
+  std::string stateFailure;  ///< why the state was not saved; empty: it was, or was not to be
 
   int64_t Elements() const { return volumeElements + faceElements + patchElements; }
   int64_t Links() const {

@@ -1,6 +1,7 @@
 #include "Scene/Core/SceneLimits.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -25,6 +26,29 @@ void RequireSolvableMesh(const TriangleMesh& mesh) {
       "The scene measures %g m across; light is computed from %g m to %g m: check the length unit.",
       diagonal, kSmallestScene, kLargestScene);
   throw Error(text);
+}
+
+double DiagonalOfMost(const TriangleMesh& mesh) {
+  constexpr size_t kPartLeftOut = 100, kFew = 8;
+  std::vector<float> centers(mesh.triangles.size());
+  const size_t leftOut =
+      centers.size() > kFew ? std::max<size_t>(1, centers.size() / kPartLeftOut) : 0;
+  double square = 0;
+  for (int axis = 0; axis < 3 && !centers.empty(); ++axis) {
+    for (size_t face = 0; face < centers.size(); ++face) {
+      const auto& p = mesh.triangles[face];
+      centers[face] = (mesh.positions[size_t(p[0])][axis] + mesh.positions[size_t(p[1])][axis] +
+                       mesh.positions[size_t(p[2])][axis]) /
+                      3.f;
+    }
+    const auto low = centers.begin() + int64_t(leftOut),
+               high = centers.end() - 1 - int64_t(leftOut);
+    std::nth_element(centers.begin(), low, centers.end());
+    const double least = double(*low);
+    std::nth_element(centers.begin(), high, centers.end());
+    square += (double(*high) - least) * (double(*high) - least);
+  }
+  return std::sqrt(square);
 }
 
 void RequireSolvableLights(const std::vector<Light>& lights) {

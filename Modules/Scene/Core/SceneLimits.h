@@ -36,6 +36,10 @@ inline bool IsWithinReach(const Vec3f& point) {
 /// mesh without extent passes.
 void RequireSolvableMesh(const TriangleMesh& mesh);
 
+/// Diagonal of the box of all but a hundredth of the faces at either end of each axis, by their
+/// centers, m. Much less than that of the mesh where faces stray.
+double DiagonalOfMost(const TriangleMesh& mesh);
+
 /// Throws Error for a light whose intensity is negative or beyond the limit, that lies out of
 /// reach, that shines in no direction or whose size none can have.
 void RequireSolvableLights(const std::vector<Light>& lights);
