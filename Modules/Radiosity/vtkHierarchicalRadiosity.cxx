@@ -43,19 +43,19 @@ void vtkHierarchicalRadiosity::SetOption(T* option, const T& value) {
   this->Modified();
 }
 
-#define lambertOptionMacro(name, type, member)           \
+#define lambertOptionOfRunMacro(name, type, member)      \
   void vtkHierarchicalRadiosity::Set##name(type value) { \
     this->SetOption(&this->Options->member, value);      \
   }                                                      \
   type vtkHierarchicalRadiosity::Get##name() { return this->Options->member; }
-lambertOptionMacro(Error, double, error);
-lambertOptionMacro(TimeLimit, double, timeLimit);
-lambertOptionMacro(MemoryLimit, double, memoryLimit);
-lambertOptionMacro(Iterations, int, iterations);
-lambertOptionMacro(VerificationPoints, int, verificationPoints);
-lambertOptionMacro(FinalGather, bool, finalGather);
-lambertOptionMacro(SnapTolerance, float, leafMesh.snapTolerance);
-#undef lambertOptionMacro
+lambertOptionOfRunMacro(Error, double, error);
+lambertOptionOfRunMacro(TimeLimit, double, timeLimit);
+lambertOptionOfRunMacro(MemoryLimit, double, memoryLimit);
+lambertOptionOfRunMacro(Iterations, int, iterations);
+lambertOptionOfRunMacro(VerificationPoints, int, verificationPoints);
+lambertOptionOfRunMacro(FinalGather, bool, finalGather);
+lambertOptionOfRunMacro(SnapTolerance, float, leafMesh.snapTolerance);
+#undef lambertOptionOfRunMacro
 
 // The choices of the core, in the order of the enumerations here.
 #define lambertChoiceMacro(name, type, last, member)                                             \
