@@ -268,6 +268,7 @@ bool HierarchicalRadiosity::Implementation::RefineAndExchange(double last, doubl
   for (;; *threshold *= kThresholdFactor) {
     *threshold = std::max(last, *threshold);
     do {
+      oracle->Adapt(hierarchy, light);
       if (!RefineLinks(*threshold * received, *oracle, rayScene, &hierarchy, &light, &network,
                        progress, hasRoom)) {
         return false;
