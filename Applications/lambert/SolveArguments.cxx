@@ -27,10 +27,7 @@ SolveMethod MethodOfName(const std::string& name) {
 /// How hierarchical radiosity refines links and splits triangles.
 void AddRefinementOptions(CLI::App* command, HierarchicalRadiosityOptions* solver) {
   std::map<std::string, OracleKind> oracles;
-  for (const OracleKind kind :
-       {OracleKind::Doubt, OracleKind::Geometric, OracleKind::Bfa, OracleKind::Visibility}) {
-    oracles[OracleName(kind)] = kind;
-  }
+  for (const OracleKind kind : kOracleKinds) oracles[OracleName(kind)] = kind;
   command
       ->add_option_function<std::string>(
           "--oracle", [=](const std::string& name) { solver->oracle = oracles.at(name); },

@@ -1,25 +1,27 @@
 #include "SceneSummary.h"
 
+#include "Scene/Core/LightSource.h"
+
 #include <set>
 
 namespace lambert {
 namespace {
-/// Power of a lamp, W: the intensity integrated over the sphere; the spot's edge by the midpoint
-/// rule.
+/// Power of a lamp, W: the intensity integrated over rings about its axis by the midpoint rule.
 Spectrum LampPower(const Light& light) {
-  if (light.type == LightType::Point) {
-    return light.intensity * static_cast<float>(4 * kPi);
-  }
   constexpr int kRings = 1024;
-  double solidAngle = 0;
+  const std::unique_ptr<LightSource> source = MakeLightSource(light);
+  Vec3f u, v;
+  CoordinateSystem(light.direction, &u, &v);
+  double power[3] = {0, 0, 0};
   for (int ring = 0; ring < kRings; ++ring) {
     const float z = 1 - 2 * (static_cast<float>(ring) + 0.5f) / kRings;
-    Vec3f u, v;
-    CoordinateSystem(light.direction, &u, &v);
-    const Vec3f d = light.direction * z + u * std::sqrt(std::max(0.f, 1 - z * z));
-    solidAngle += light.ConeFactor(d) * 4 * kPi / kRings;
+    const Spectrum intensity =
+        source->Intensity(light.direction * z + u * std::sqrt(std::max(0.f, 1 - z * z)));
+    for (int band = 0; band < 3; ++band) {
+      power[band] += intensity[band] * 4 * kPi / kRings;
+    }
   }
-  return light.intensity * static_cast<float>(solidAngle);
+  return {float(power[0]), float(power[1]), float(power[2])};
 }
 }  // namespace
 

@@ -64,7 +64,7 @@ lambertOptionOfRunMacro(SnapTolerance, float, leafMesh.snapTolerance);
   }                                                                                              \
   int vtkHierarchicalRadiosity::Get##name() { return static_cast<int>(this->Options->member); }
 lambertChoiceMacro(Refinement, lambert::PatchRefinement, QUADTREE, leafMesh.refinement);
-lambertChoiceMacro(Oracle, lambert::OracleKind, VISIBILITY, oracle);
+lambertChoiceMacro(Oracle, lambert::OracleKind, PERCEPTUAL, oracle);
 lambertChoiceMacro(Schedule, lambert::Schedule, INTERLEAVED, schedule);
 #undef lambertChoiceMacro
 

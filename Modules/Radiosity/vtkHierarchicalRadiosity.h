@@ -80,15 +80,17 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   float GetSnapTolerance();
   ///@}
   ///@{ What judges links: geometry and doubt in visibility; geometry alone; the power that samples
-  /// find (thesis 4.5.3); or as the first, but sure where all of one end sees all or nothing of the
-  /// other (9.2.2). Default DOUBT.
-  enum Oracles { DOUBT, GEOMETRIC, BFA, VISIBILITY };
+  /// find (thesis 4.5.3); as the first, but sure where all of one end sees all or nothing of the
+  /// other (9.2.2); or as the first, weighed by what a tone-mapped picture shows (9.2.2). Default
+  /// DOUBT.
+  enum Oracles { DOUBT, GEOMETRIC, BFA, VISIBILITY, PERCEPTUAL };
   void SetOracle(int oracle);
   int GetOracle();
   void SetOracleToDoubt() { this->SetOracle(DOUBT); }
   void SetOracleToGeometric() { this->SetOracle(GEOMETRIC); }
   void SetOracleToBfa() { this->SetOracle(BFA); }
   void SetOracleToVisibility() { this->SetOracle(VISIBILITY); }
+  void SetOracleToPerceptual() { this->SetOracle(PERCEPTUAL); }
   ///@}
   ///@{ When light bounces (thesis 3.2.4): until it settles between one threshold and the next, or
   /// once after every refinement; default SCHEDULED.

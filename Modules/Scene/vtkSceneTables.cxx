@@ -1,6 +1,7 @@
 #include "vtkSceneTables.h"
 
 #include "Common/Core/Error.h"
+#include "Scene/Core/LightSource.h"
 #include "Scene/Core/SceneLimits.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -171,7 +172,7 @@ void ReadLights(vtkFieldData* fields, std::vector<Light>* lights) {
   table.Strings(Names::LightName(),
                 [&](size_t row, const std::string& name) { l[row].name = name; });
   table.Numbers(Names::LightType(), 1, [&](size_t row, int, double value) {
-    if (!(value >= 0 && value <= static_cast<double>(LightType::Environment))) {
+    if (!IsLightType(value)) {
       throw Error("The light " + std::to_string(row) + " is of no known type.");
     }
     l[row].type = static_cast<LightType>(static_cast<int>(value));

@@ -8,6 +8,7 @@
 #include "Classical/Core/UniformMesh.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
+#include "Scene/Core/DoubledFaces.h"
 
 namespace lambert {
 
@@ -67,11 +68,13 @@ bool FindsLight(const FilledCache& filled, int64_t face, Side side, uint64_t see
 /// the side emits, or the face by itself finds light where its cells do not.
 std::vector<uint8_t> LitSides(const FilledCache& filled, uint64_t seed, int64_t* cast) {
   const TriangleMesh& mesh = filled.scene.mesh;
+  const DoubledFaces doubled(mesh);
   std::vector<uint8_t> lit(mesh.triangles.size(), 0);
   std::vector<uint8_t> castByFace(mesh.triangles.size(), 0);
   ParallelForEach(mesh.FaceCount(), 256, [&](int64_t face) {
     int64_t rays = 0;
     for (const Side side : {kFront, kBack}) {
+      if (doubled.IsHidden(face, side)) continue;
       bool isLit = mesh.Emits(face, side) && !mesh.emittance[size_t(face)].IsBlack();
       bool isShared = false;
       filled.cells.ForEachCell(face, [&](int32_t cell) {

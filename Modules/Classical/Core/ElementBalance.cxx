@@ -57,20 +57,20 @@ void AddEscaping(const ElementSides& sides, const SideLight& light, const RaySce
   }
 }
 
-/// All light of a point or spot light, and the part that meets nothing, over directions of equal
-/// solid angle.
-void AddLamp(const Light& lamp, const RayScene& rayScene, PowerSum* emitted, PowerSum* escaped) {
+/// All light of a lamp, and the part that meets nothing, over directions of equal solid angle.
+void AddLamp(const LightSource& lamp, const RayScene& rayScene, PowerSum* emitted,
+             PowerSum* escaped) {
   const double solidAngle = 4 * kPi / kRaysPerLamp;
   Random random(7);
   for (int i = 0; i < kRaysPerLamp; ++i) {
     const float z = 1 - 2 * (float(i) + random.Uniform()) / kRaysPerLamp;
     const float phi = float(2 * kPi) * random.Uniform(), s = std::sqrt(std::max(0.f, 1 - z * z));
     const Vec3f direction(s * std::cos(phi), s * std::sin(phi), z);
-    const float factor = lamp.ConeFactor(direction);
-    if (factor <= 0) continue;
-    emitted->Add(lamp.intensity, double(factor) * solidAngle);
-    if (rayScene.OccludedDirection(lamp.position, direction)) continue;
-    escaped->Add(lamp.intensity, double(factor) * solidAngle);
+    const Spectrum intensity = lamp.Intensity(direction);
+    if (intensity.IsBlack()) continue;
+    emitted->Add(intensity, solidAngle);
+    if (rayScene.OccludedDirection(lamp.Position(), direction)) continue;
+    escaped->Add(intensity, solidAngle);
   }
 }
 
@@ -116,9 +116,8 @@ void MeasureElementBalance(const Scene& scene, const ElementSides& sides, const 
     absorbed.Add(arriving - sides.reflectance[i] * arriving, area);
   }
   AddEscaping(sides, light, rayScene, &escaped);
-  for (const Light& lamp : scene.lights) {
-    if (!lamp.IsPlaced()) continue;
-    AddLamp(lamp, rayScene, &emitted, &escaped);
+  for (const auto& lamp : LightSources(scene.lights)) {
+    if (!lamp->IsFar()) AddLamp(*lamp, rayScene, &emitted, &escaped);
   }
   statistics->emitted = emitted.Total();
   statistics->absorbed = absorbed.Total();

@@ -7,6 +7,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Timer.h"
+#include "Scene/Core/DoubledFaces.h"
 
 namespace lambert {
 
@@ -91,8 +92,23 @@ void ElementCache::Fill(const ProgressCallback& progress) {
   Solve(progress);
 }
 
-/// Both sides of all cells that have area; neighbours together.
+/// By side, whether a face of the cell can be seen there: not where doubled faces hide all.
+std::vector<uint8_t> ElementCache::SeenSides() const {
+  const DoubledFaces doubled(scene_.mesh);
+  if (doubled.IsEmpty()) return std::vector<uint8_t>(SideCount(), 1);
+  std::vector<uint8_t> seen(SideCount(), 0);
+  for (int64_t face = 0; face < scene_.mesh.FaceCount(); ++face) {
+    for (const Side side : {kFront, kBack}) {
+      if (doubled.IsHidden(face, side)) continue;
+      cells_.ForEachCell(face, [&](int32_t cell) { seen[SideIndex(cell, side)] = 1; });
+    }
+  }
+  return seen;
+}
+
+/// Seen sides of all cells that have area; neighbours together.
 std::vector<int32_t> ElementCache::OrderedSides() const {
+  const std::vector<uint8_t> seen = SeenSides();
   std::vector<Vec3f> positions(SideCount()), normals(SideCount());
   ParallelForEach(cells_.Size(), 1024, [&](int64_t cell) {
     for (const Side side : {kFront, kBack}) {
@@ -103,7 +119,9 @@ std::vector<int32_t> ElementCache::OrderedSides() const {
   });
   std::vector<int32_t> order = CoherentOrder(positions, normals);
   order.erase(std::remove_if(order.begin(), order.end(),
-                             [&](int32_t side) { return !(cells_.Area(side / 2) > 0); }),
+                             [&](int32_t side) {
+                               return !(cells_.Area(side / 2) > 0) || !seen[size_t(side)];
+                             }),
               order.end());
   return order;
 }

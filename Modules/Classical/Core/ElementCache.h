@@ -51,6 +51,7 @@ class ElementCache {
 
   static size_t SideIndex(int32_t cell, Side side) { return size_t(cell) * 2 + size_t(side); }
   size_t SideCount() const { return size_t(cells_.Size()) * 2; }
+  std::vector<uint8_t> SeenSides() const;
   std::vector<int32_t> OrderedSides() const;
   void CastPaths(const std::vector<int32_t>& sides, int firstPlace, PathSet* set);
   void CastFrom(int32_t side, int firstPlace, size_t item, const PathSet& set, RayBatch* batch,

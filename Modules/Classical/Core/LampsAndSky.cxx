@@ -7,17 +7,19 @@ namespace lambert {
 
 namespace {
 
-std::vector<Light> LightsOf(const Scene& scene, bool isPlaced) {
+std::vector<Light> LightsOf(const Scene& scene, bool isFar) {
   std::vector<Light> lights;
   std::copy_if(scene.lights.begin(), scene.lights.end(), std::back_inserter(lights),
-               [isPlaced](const Light& light) { return light.IsPlaced() == isPlaced; });
+               [isFar](const Light& light) {
+                 return !light.IsBlack() && MakeLightSource(light)->IsFar() == isFar;
+               });
   return lights;
 }
 
 }  // namespace
 
 LampsAndSky::LampsAndSky(const Scene& scene, const RayScene& rays)
-    : rays_(rays), near_(LightsOf(scene, true)), far_(LightsOf(scene, false)) {}
+    : rays_(rays), near_(LightsOf(scene, false)), far_(LightsOf(scene, true)) {}
 
 Spectrum LampsAndSky::FromLamps(const LightReceiver& at, int64_t* cast) const {
   return FromSamples(near_, at, rays_, cast);

@@ -5,6 +5,7 @@
 
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
+#include "Scene/Core/DoubledFaces.h"
 #include "Scene/Core/MeshTopology.h"
 
 namespace lambert {
@@ -100,7 +101,8 @@ class LitSideSearch {
         rayScene_(rayScene),
         seeker_(scene, rayScene, sources),
         first_(FirstElements(mesh, scene.mesh.FaceCount())),
-        topology_(ConnectFaces(scene.mesh)) {}
+        topology_(ConnectFaces(scene.mesh)),
+        doubled_(scene.mesh) {}
 
   /// Those of `sides` that are lit by as many paths, or one from every element; in order.
   std::vector<SideId> Lit(const std::vector<SideId>& sides, int64_t leastPaths,
@@ -140,6 +142,7 @@ class LitSideSearch {
   bool IsLit(SideId id, int64_t leastPaths, int64_t* cast) const {
     const int64_t face = id / 2;
     const Side side = id % 2 ? kBack : kFront;
+    if (doubled_.IsHidden(face, side)) return false;
     if (scene_.mesh.Emits(face, side) && !scene_.mesh.emittance[size_t(face)].IsBlack())
       return true;
     int found = 0;
@@ -196,6 +199,7 @@ class LitSideSearch {
   const LightSeeker seeker_;
   const std::vector<int64_t> first_;  ///< element of each face
   const MeshTopology topology_;
+  const DoubledFaces doubled_;
 };
 
 }  // namespace

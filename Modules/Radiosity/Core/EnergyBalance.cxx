@@ -29,22 +29,19 @@ bool IsSurfaceLeaf(const Element& element) {
   return element.IsLeaf() && !element.IsVolume() && element.kind != ElementKind::Light;
 }
 
-/// Light of a point or spot light: all of it, and the part that meets nothing, over directions of
-/// equal solid angle.
-void AddPunctualLight(const Light& light, const RayScene& rayScene, Power* emitted,
-                      Power* escaped) {
+/// Light of a lamp: all of it, and the part that meets nothing, over directions of equal solid
+/// angle.
+void AddLamp(const LightSource& lamp, const RayScene& rayScene, Power* emitted, Power* escaped) {
   Random random(7);
   const double solidAngle = 4 * kPi / kRaysPerLight;
   for (int i = 0; i < kRaysPerLight; ++i) {
     const float z = 1 - 2 * (float(i) + random.Uniform()) / kRaysPerLight;
     const float phi = float(2 * kPi) * random.Uniform(), s = std::sqrt(std::max(0.f, 1 - z * z));
     const Vec3f direction(s * std::cos(phi), s * std::sin(phi), z);
-    const float factor = light.ConeFactor(direction);
-    if (factor <= 0) continue;
-    emitted->Add(light.intensity, factor * solidAngle);
-    if (rayScene.Closest(light.position, direction).face < 0) {
-      escaped->Add(light.intensity, factor * solidAngle);
-    }
+    const Spectrum intensity = lamp.Intensity(direction);
+    if (intensity.IsBlack()) continue;
+    emitted->Add(intensity, solidAngle);
+    if (rayScene.Closest(lamp.Position(), direction).face < 0) escaped->Add(intensity, solidAngle);
   }
 }
 
@@ -174,8 +171,8 @@ void MeasureEnergyBalance(const ElementHierarchy& hierarchy, const LinkNetwork& 
   FollowLeaving(hierarchy, light, rayScene, &escaped, &absorbed);
 
   // Lights without geometry: placed ones with all that they give, far ones with what arrives.
-  for (const Light& lamp : hierarchy.GetScene().lights) {
-    if (lamp.IsPlaced()) AddPunctualLight(lamp, rayScene, &emitted, &escaped);
+  for (const auto& lamp : LightSources(hierarchy.GetScene().lights)) {
+    if (!lamp->IsFar()) AddLamp(*lamp, rayScene, &emitted, &escaped);
   }
   for (const int32_t source : hierarchy.Lights()) {
     if (!hierarchy.LightOf(hierarchy[source]).IsFar()) continue;

@@ -285,6 +285,7 @@ bool HierarchicalRadiosity::Implementation::RefineAndExchange(double last, doubl
   for (;; *threshold *= kThresholdFactor) {
     *threshold = std::max(last, *threshold);
     do {
+      oracle->Adapt(hierarchy, light);
       const bool isRefined = statistics.stages.Time("links", [&] {
         return RefineLinks(*threshold * received, *oracle, rayScene, &hierarchy, &light, &network,
                            progress, hasRoom);

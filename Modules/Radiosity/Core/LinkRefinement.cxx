@@ -54,6 +54,7 @@ class Judge {
     if (!CanSplit(source) && !CanSplit(target)) return false;
     LinkEvidence evidence{source, target, BoundPair(hierarchy_, source, target), radiosity,
                           light_.variation[size_t(link.source)]};
+    evidence.reflected = ReflectedLuminance(target, light_.radiosity[size_t(receiver)]);
     Consider(link, &evidence);
     return this->Exceeds(oracle_.Estimate(evidence), target);
   }
@@ -73,6 +74,7 @@ class Judge {
     if (!(radiosity > 0)) return judgement;
     LinkEvidence evidence{source, receiver, bound, radiosity,
                           light_.variation[size_t(pair.source)]};
+    evidence.reflected = ReflectedLuminance(receiver, light_.radiosity[size_t(pair.receiver)]);
     const TransferError error = oracle_.Estimate(evidence);
     if (this->Exceeds(error, receiver)) {
       judgement.verdict = Choose(error, source, receiver);

@@ -4,6 +4,7 @@
 
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
+#include "Scene/Core/DoubledFaces.h"
 #include "Scene/Core/LightSource.h"
 #include "Visibility/Core/EmitterTree.h"
 
@@ -90,6 +91,15 @@ SideView LookAround(const Scene& scene, const ClusterNode& root, int32_t side,
   return view;
 }
 
+/// Whether all of a side lies under the fronts of doubled faces.
+bool IsHidden(const DoubledFaces& doubled, const ClusterNode& root, Side side) {
+  if (doubled.IsEmpty()) return false;
+  for (int32_t face = root.firstFace; face < root.firstFace + root.faceCount; ++face) {
+    if (!doubled.IsHidden(face, side)) return false;
+  }
+  return true;
+}
+
 bool SideEmits(const TriangleMesh& mesh, const ClusterNode& root, Side side) {
   for (int32_t face = root.firstFace; face < root.firstFace + root.faceCount; ++face) {
     if (mesh.Emits(face, side) && !mesh.emittance[size_t(face)].IsBlack()) return true;
@@ -105,9 +115,11 @@ std::vector<uint8_t> FindLitSides(const Scene& scene, const ClusterTree& tree,
   const int64_t surfaces = int64_t(tree.surfaceRoots.size());
   const LightSources lights(scene.lights);
   const EmitterTree emitters(scene.mesh);
+  const DoubledFaces doubled(scene.mesh);
   std::vector<SideView> views(static_cast<size_t>(2 * surfaces));
   ParallelForEach(2 * surfaces, 4, [&](int64_t i) {
     const ClusterNode& root = tree.nodes[size_t(tree.surfaceRoots[size_t(i / 2)])];
+    if (IsHidden(doubled, root, Side(i % 2))) return;
     views[size_t(i)] = LookAround(scene, root, int32_t(i % 2), rayScene, emitters, lights);
   });
 

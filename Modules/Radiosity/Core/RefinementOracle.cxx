@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "Common/Core/Parallel.h"
+#include "Radiosity/Core/LinkRefinement.h"
 #include "Radiosity/Core/Shafts.h"
 #include "Radiosity/Core/Transfer.h"
 
@@ -145,17 +147,19 @@ class DoubtOracle : public RefinementOracle {
  public:
   TransferError Estimate(const LinkEvidence& evidence) const override {
     // Shape and distance.
-    const auto& [source, receiver, bound, radiosity, variation, visibility, sampled, isCertain] =
-        evidence;
+    const Element &source = evidence.source, &receiver = evidence.receiver;
+    const PairBound& bound = evidence.bound;
+    const float visibility = evidence.visibility;
     TransferError error;
-    const float transfer = bound.formFactor * radiosity;
+    const float transfer = bound.formFactor * evidence.radiosity;
     const float seen = visibility < 0 ? 1.f : std::max(visibility, kDoubtBlocked);
     error.byReceiver = transfer * bound.receiverSpread * seen;
     error.bySource =
-        (transfer * bound.sourceSpread + bound.formFactor * variation * bound.nearness) * seen;
+        (transfer * bound.sourceSpread + bound.formFactor * evidence.variation * bound.nearness) *
+        seen;
 
     // Visibility: the larger end is what samples miss most of.
-    if (visibility >= 0 && !isCertain) {
+    if (visibility >= 0 && !evidence.isCertain) {
       const float near = bound.nearness * bound.nearness;
       const float doubt = visibility <= 0
                               ? kDoubtBlocked + (kDoubtBlockedNear - kDoubtBlocked) * near
@@ -226,10 +230,82 @@ class VisibilityOracle : public DoubtOracle {
   const Shafts shafts_;
 };
 
+/// What is displayed of luminance: keyed to the log-average of what is lit (reinhard2002 eqs. 1 to
+/// 3), then encoded for a screen. An error counts by the change that it makes there.
+class PerceptualOracle : public DoubtOracle {
+ public:
+  void Adapt(const ElementHierarchy& hierarchy, const ElementLight& light) override {
+    // What leaves reflect, by area, but for shadow without light.
+    const Sums all = SumOver(hierarchy, light, 0);
+    if (!(all.luminance > 0)) return;
+    const Sums lit = SumOver(hierarchy, light, kBlack * all.luminance / all.area);
+    adaptation_ = float(std::exp(lit.logarithm / lit.area));
+    reflectance_ = float(lit.reflectance / lit.area);
+  }
+
+  TransferError Estimate(const LinkEvidence& evidence) const override {
+    TransferError error = DoubtOracle::Estimate(evidence);
+    const float weight = Weight(evidence.receiver, evidence.reflected);
+    error.byReceiver *= weight;
+    error.bySource *= weight;
+    return error;
+  }
+
+ private:
+  struct Sums {
+    double area = 0, luminance = 0, logarithm = 0, reflectance = 0;
+    Sums& operator+=(const Sums& s) {
+      area += s.area, luminance += s.luminance;
+      logarithm += s.logarithm, reflectance += s.reflectance;
+      return *this;
+    }
+  };
+  /// Over the leaves that reflect more than `least`.
+  static Sums SumOver(const ElementHierarchy& hierarchy, const ElementLight& light, double least) {
+    return OrderedSum<Sums>(hierarchy.Size(), [&](int64_t i) {
+      const Element& element = hierarchy[int32_t(i)];
+      const double luminance = double(ReflectedLuminance(element, light.radiosity[size_t(i)]));
+      if (!element.IsLeaf() || element.kind == ElementKind::Light || !(luminance > least)) {
+        return Sums();
+      }
+      const double area = double(element.area);
+      return Sums{area, area * luminance, area * std::log(luminance),
+                  area * double(Luminance(element.reflectance))};
+    });
+  }
+
+  /// Change of displayed values for a change of irradiance, relative to that where a surface of
+  /// mean reflectance is as bright as the eye is adapted to: there, and where what is reflected
+  /// arrives next, which is as bright as that in the mean.
+  float Weight(const Element& receiver, float reflected) const {
+    if (!(adaptation_ > 0)) return 1;
+    const float slope = DisplaySlope(kKey * reflected / adaptation_) / DisplaySlope(kKey);
+    const float reflectance = Luminance(receiver.reflectance);
+    return slope * reflectance / reflectance_ + reflectance;
+  }
+  /// d/dL of (L / (1 + L))^(1 / gamma): photographic curve and screen.
+  static float DisplaySlope(float keyed) {
+    const float l = std::max(keyed, kDarkest), curve = l / (1 + l);
+    return std::pow(curve, 1 / kGamma - 1) / (kGamma * (1 + l) * (1 + l));
+  }
+
+  static constexpr float kKey = 0.18f, kGamma = 2.2f;
+  /// Keyed luminance below which no less light is told from less: a twentieth of the key.
+  static constexpr float kDarkest = kKey / 20;
+  /// Leaves this much darker than the mean are shadow without light.
+  static constexpr double kBlack = 1e-5;
+  float adaptation_ = 0;   ///< log-average luminance of what is lit, W/m2; 0 before there is light
+  float reflectance_ = 1;  ///< luminance of its mean reflectance
+};
+
 }  // namespace
 
+float ReflectedLuminance(const Element& element, const Spectrum& radiosity) {
+  return std::max(0.f, Luminance(radiosity - element.emittance));
+}
+
 const char* OracleName(OracleKind kind) {
-  constexpr const char* kNames[] = {"doubt", "geometric", "bfa", "visibility"};
+  constexpr const char* kNames[] = {"doubt", "geometric", "bfa", "visibility", "perceptual"};
   return kNames[size_t(kind)];
 }
 
@@ -243,6 +319,8 @@ std::unique_ptr<RefinementOracle> MakeRefinementOracle(OracleKind kind,
       return std::make_unique<BfaOracle>();
     case OracleKind::Visibility:
       return std::make_unique<VisibilityOracle>(hierarchy, rayScene);
+    case OracleKind::Perceptual:
+      return std::make_unique<PerceptualOracle>();
     case OracleKind::Doubt:
       break;
   }

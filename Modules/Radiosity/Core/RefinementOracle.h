@@ -11,6 +11,8 @@
 
 namespace lambert {
 
+struct ElementLight;
+
 /// Geometry of a pair of elements, for unit radiosity of the source.
 struct PairBound {
   bool apart = false;    ///< neither can light the other: no link at all
@@ -42,12 +44,18 @@ struct LinkEvidence {
   float visibility = -1;   ///< sampled, in [0, 1]; negative where it is not known yet
   Vec3f transfer{};        ///< sampled (4.23), visibility included, per unit radiosity
   bool isCertain = false;  ///< the visibility holds for all pairs of points, not just the sampled
+  float reflected = 0;     ///< luminance of what the receiver reflects as it is lit now, W/m2
 };
+
+/// Luminance of what an element of that radiosity does not emit but reflect, W/m2.
+float ReflectedLuminance(const Element& element, const Spectrum& radiosity);
 
 /// A strategy that judges links: how wrong each is held to be. Asked by many threads at once.
 class RefinementOracle {
  public:
   virtual ~RefinementOracle() = default;
+  /// Called before links are refined, with the light as it is then.
+  virtual void Adapt(const ElementHierarchy&, const ElementLight&) {}
   virtual TransferError Estimate(const LinkEvidence& evidence) const = 0;
   /// Whether what samples have found, all clear or all blocked, is certain. Asked only of links
   /// that would be refined otherwise.
@@ -59,10 +67,14 @@ class RefinementOracle {
 /// Doubt: geometry bounds the error, and visibility is in doubt however many samples agree.
 /// Geometric: the same, with nothing said of visibility. Bfa: radiosity x sampled form factor x
 /// area, of a fixed count of sample pairs (thesis 4.5.3). Visibility: as Doubt, but without doubt
-/// where a transfer is known to be clear; known to be blocked it is no link (9.2.2).
-enum class OracleKind : uint8_t { Doubt, Geometric, Bfa, Visibility };
+/// where a transfer is known to be clear; known to be blocked it is no link (9.2.2). Perceptual: as
+/// Doubt, but weighed by how much of it a tone-mapped picture shows (9.2.2).
+enum class OracleKind : uint8_t { Doubt, Geometric, Bfa, Visibility, Perceptual };
+/// All of them, in the order of their making.
+constexpr OracleKind kOracleKinds[] = {OracleKind::Doubt, OracleKind::Geometric, OracleKind::Bfa,
+                                       OracleKind::Visibility, OracleKind::Perceptual};
 
-/// "doubt", "geometric", "bfa", "visibility".
+/// "doubt", "geometric", "bfa", "visibility", "perceptual".
 const char* OracleName(OracleKind kind);
 
 /// Keeps references to both.

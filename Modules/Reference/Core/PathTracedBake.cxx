@@ -11,6 +11,7 @@
 #include "Reference/Core/PathTracedIrradiance.h"
 #include "Reference/Core/ReferenceRays.h"
 #include "Reference/Core/VertexReceivers.h"
+#include "Scene/Core/DoubledFaces.h"
 
 namespace lambert {
 
@@ -25,6 +26,7 @@ class VertexLight {
  public:
   VertexLight(const Scene& scene, const PathTracedBakeOptions& options)
       : mesh_(scene.mesh),
+        doubled_(scene.mesh),
         options_(options),
         tracer_(scene),
         receivers_(VertexReceivers(scene.mesh)),
@@ -54,6 +56,7 @@ class VertexLight {
 
   /// True where a side of a face emits or has light at one of its corners.
   bool IsLit(int32_t face, Side side) const {
+    if (doubled_.IsHidden(face, side)) return false;
     if (mesh_.Emits(face, side) && !mesh_.emittance[size_t(face)].IsBlack()) return true;
     for (const int32_t point : mesh_.triangles[size_t(face)]) {
       const int32_t receiver = ReceiverAt(point, face, side);
@@ -153,6 +156,7 @@ class VertexLight {
   }
 
   const TriangleMesh& mesh_;
+  const DoubledFaces doubled_;
   const PathTracedBakeOptions options_;
   const PathTracedIrradiance tracer_;
   const std::vector<VertexReceiver> receivers_;

@@ -8,11 +8,12 @@
 #include <limits>
 
 #include "Common/Core/Error.h"
+#include "Scene/Core/DoubledFaces.h"
 
 namespace lambert {
 
 struct ReferenceRays::Implementation {
-  explicit Implementation(const TriangleMesh& mesh_) : mesh(mesh_) {}
+  explicit Implementation(const TriangleMesh& mesh_) : mesh(mesh_), doubled(mesh_) {}
   ~Implementation() {
     if (scene) rtcReleaseScene(scene);
     if (device) rtcReleaseDevice(device);
@@ -20,6 +21,7 @@ struct ReferenceRays::Implementation {
   Vec3f Origin(const ReferenceVertex& at) const { return at.position + at.geometric * lift; }
 
   const TriangleMesh& mesh;
+  const DoubledFaces doubled;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   float nearest = 0;  ///< a parallel face nearer than this does not block, m
@@ -126,11 +128,20 @@ bool ReferenceRays::Closest(const ReferenceVertex& at, const Vec3f& direction,
   // The place by barycentrics, which lies on the face more exactly than a point along the ray.
   hit->face = int32_t(query.hit.primID);
   hit->distance = query.ray.tfar;
-  const Vec3f front = self.mesh.FrontNormal(hit->face);
+  Vec3f front = self.mesh.FrontNormal(hit->face);
   hit->side = Dot(front, direction) < 0 ? kFront : kBack;
-  const float b1 = query.hit.u, b2 = query.hit.v;
-  hit->vertex.position = self.mesh.Corner(hit->face, 0) * (1 - b1 - b2) +
-                         self.mesh.Corner(hit->face, 1) * b1 + self.mesh.Corner(hit->face, 2) * b2;
+  Vec2f b(query.hit.u, query.hit.v);
+  if (self.doubled.IsHidden(hit->face, hit->side)) {
+    // Of doubled faces the one that is seen from here.
+    const DoubledFaces::Place twin = self.doubled.OnTwin({hit->face, b});
+    hit->face = twin.face;
+    b = twin.barycentric;
+    front = self.mesh.FrontNormal(hit->face);
+    hit->side = Dot(front, direction) < 0 ? kFront : kBack;
+  }
+  hit->vertex.position = self.mesh.Corner(hit->face, 0) * (1 - b.x - b.y) +
+                         self.mesh.Corner(hit->face, 1) * b.x +
+                         self.mesh.Corner(hit->face, 2) * b.y;
   hit->vertex.normal = hit->vertex.geometric = hit->side == kFront ? front : -front;
   return true;
 }

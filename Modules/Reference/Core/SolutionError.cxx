@@ -7,6 +7,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Random.h"
 #include "Reference/Core/PathTracedIrradiance.h"
+#include "Scene/Core/DoubledFaces.h"
 #include "Visibility/Core/SolutionLookup.h"
 
 namespace lambert {
@@ -35,10 +36,12 @@ struct Comparison {
 };
 
 /// Places stratified by area over both sides of every face that receives: all fronts, then all
-/// backs. Faces that emit do not count, but where there are no others (a furnace).
+/// backs. Faces that emit do not count, but where there are no others (a furnace); nor do sides
+/// that lie under doubled faces.
 std::vector<Place> StratifiedPlaces(const TriangleMesh& mesh, const SolutionErrorOptions& options) {
   const int64_t count = mesh.FaceCount();
   const std::vector<bool> receives = ReceivingFaces(mesh);
+  const DoubledFaces doubled(mesh);
   std::vector<double> upTo(size_t(count), 0);
   double total = 0;
   for (int64_t face = 0; face < count; ++face) {
@@ -55,6 +58,7 @@ std::vector<Place> StratifiedPlaces(const TriangleMesh& mesh, const SolutionErro
         std::upper_bound(upTo.begin(), upTo.end(), side == kFront ? target : target - total);
     if (found == upTo.end()) continue;
     const int32_t face = int32_t(found - upTo.begin());
+    if (doubled.IsHidden(face, side)) continue;
     const float u = random.Uniform(), v = random.Uniform();
     places.push_back({face, side, ReceiverAt(mesh, face, side, UniformTriangle(u, v))});
   }

@@ -12,6 +12,10 @@ class Lamp : public LightSource {
   explicit Lamp(const Light& light) : light_(light) {}
 
   bool IsFar() const override { return false; }
+  Vec3f Position() const override { return light_.position; }
+  Spectrum Intensity(const Vec3f& direction) const override {
+    return light_.intensity * light_.ConeFactor(direction);
+  }
   Spectrum Strength() const override { return light_.intensity; }
   int Samples() const override { return light_.size > 0 ? kSamplesOfDisc : 1; }
   /// Of a ball that holds `x` nothing is seen.

@@ -1,26 +1,25 @@
 #include "Scene/Core/LightSource.h"
 
 #include <cstring>
+#include <iterator>
 
 #include "Common/Core/Error.h"
 #include "Scene/Core/LightKinds.h"
 
 namespace lambert {
 
+namespace {
+
+/// Makers, in the order of LightType: point and spot, directional, skies.
+constexpr std::unique_ptr<LightSource> (*kMakers[])(const Light&) = {
+    MakeLamp, MakeLamp, MakeSun, MakeSky, MakeGradientSky, MakeEnvironment};
+
+}  // namespace
+
+bool IsLightType(double number) { return number >= 0 && number < double(std::size(kMakers)); }
+
 std::unique_ptr<LightSource> MakeLightSource(const Light& light) {
-  switch (light.type) {
-    case LightType::Point:
-    case LightType::Spot:
-      return MakeLamp(light);
-    case LightType::Directional:
-      return MakeSun(light);
-    case LightType::Sky:
-      return MakeSky(light);
-    case LightType::GradientSky:
-      return MakeGradientSky(light);
-    case LightType::Environment:
-      return MakeEnvironment(light);
-  }
+  if (IsLightType(double(light.type))) return kMakers[size_t(light.type)](light);
   throw Error("The light \"" + light.name + "\" is of no known type.");
 }
 

@@ -1,5 +1,5 @@
-// Lights without geometry, as methods see them. A new kind is one class, and a row in
-// MakeLightSource.
+// Lights without geometry, as methods see them. A new kind is one class, and its maker in the table
+// of LightSource.cxx.
 #pragma once
 
 #include <algorithm>
@@ -28,6 +28,9 @@ class LightSource {
 
   /// True for what is seen in the same directions from everywhere.
   virtual bool IsFar() const { return true; }
+  /// Of what is not: where it stands, m, and what it sends in a unit direction, W/sr.
+  virtual Vec3f Position() const { return {}; }
+  virtual Spectrum Intensity(const Vec3f& /*direction*/) const { return {}; }
   /// What Transfer is relative to: the intensity of a row of the table, or the mean radiance.
   virtual Spectrum Strength() const = 0;
   /// False where the colour depends on the direction: then each band is an element of its own.
@@ -53,6 +56,9 @@ class LightSource {
   /// Power, W; of what is far, that through bounds with half a surface of `area` m2: a guess.
   virtual Spectrum Power(float area) const = 0;
 };
+
+/// Whether a number of a table of lights is that of a type.
+bool IsLightType(double number);
 
 /// Throws Error for an environment without its image.
 std::unique_ptr<LightSource> MakeLightSource(const Light& light);

@@ -7,10 +7,14 @@
 #include <limits>
 
 #include "Common/Core/Error.h"
+#include "Scene/Core/DoubledFaces.h"
 
 namespace lambert {
 
 struct RayScene::Implementation {
+  explicit Implementation(const TriangleMesh& mesh) : doubled(mesh) {}
+
+  const DoubledFaces doubled;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   float diagonal = 0;
@@ -35,7 +39,7 @@ RTCRay MakeRay(const Vec3f& from, const Vec3f& direction, float tnear, float tfa
 
 }  // namespace
 
-RayScene::RayScene(const TriangleMesh& mesh) : implementation_(new Implementation) {
+RayScene::RayScene(const TriangleMesh& mesh) : implementation_(new Implementation(mesh)) {
   Implementation& self = *implementation_;
   self.diagonal = mesh.Bounds().IsEmpty() ? 0 : mesh.Bounds().Diagonal();
   self.epsilon = 1e-5f * self.diagonal;
@@ -106,6 +110,16 @@ RayHit RayScene::Closest(const Vec3f& from, const Vec3f& unitDirection) const {
   hit.distance = query.ray.tfar;
   hit.barycentric = {query.hit.u, query.hit.v};
   hit.front = Normalize(Vec3f(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z));
+
+  // Of doubled faces the one that is seen from here.
+  const Side side = Dot(hit.front, unitDirection) < 0 ? kFront : kBack;
+  if (implementation_->doubled.IsHidden(hit.face, side)) {
+    const DoubledFaces::Place twin = implementation_->doubled.OnTwin({hit.face, hit.barycentric});
+    const bool isReversed = implementation_->doubled.IsReversed(hit.face);
+    hit.face = twin.face;
+    hit.barycentric = twin.barycentric;
+    if (isReversed) hit.front = -hit.front;
+  }
   return hit;
 }
 

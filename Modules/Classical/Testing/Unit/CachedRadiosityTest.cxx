@@ -9,6 +9,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/PolygonIrradiance.h"
+#include "Common/Testing/DoubledSheet.h"
 #include "Common/Testing/TestScenes.h"
 #include "Visibility/Core/SolutionLookup.h"
 
@@ -192,6 +193,23 @@ TEST(CachedRadiosity, LightsWithoutGeometry) {
       EXPECT_NEAR((statistics.absorbed.g + statistics.escaped.g) / statistics.emitted.g, 1, 0.01);
     }
   }
+}
+
+TEST(CachedRadiosity, ADoubledSheetHasTwoSides) {
+  const Scene scene = testing::DoubledSheetUnderSuns();
+  SolverStatistics statistics;
+  const RadiositySolution solution = Solve(scene, 0.2, 64, 16, &statistics);
+  double area = 0;
+  for (int64_t face = 0; face < solution.mesh.FaceCount(); ++face) {
+    const bool isUp = solution.mesh.FrontNormal(face).z > 0;
+    area += double(solution.mesh.Area(face));
+    for (const int32_t p : solution.mesh.triangles[size_t(face)]) {
+      EXPECT_NEAR(solution.irradiance[size_t(p)].g, isUp ? 1 : 4, 1e-4f);
+      EXPECT_NEAR(solution.radiosity[size_t(p)].r, isUp ? 0.8f : 2.f, 1e-4f);
+    }
+  }
+  EXPECT_NEAR(area, 8, 1e-4);  // Two sides of 4 m2.
+  EXPECT_NEAR((statistics.absorbed.g + statistics.escaped.g) / statistics.emitted.g, 1, 0.01);
 }
 
 // pi H + 2 pi (Z - H) / 3 of a sky with a gradient, over a black ground: one side is lit.

@@ -8,6 +8,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
+#include "Common/Testing/DoubledSheet.h"
 #include "Common/Testing/TestScenes.h"
 #include "Visibility/Core/SolutionLookup.h"
 
@@ -233,6 +234,24 @@ TEST_P(ClassicalMethods, LightsOnBothSidesOfASheet) {
   }
   // A quarter of the light's sphere but for its rim; 4096 directions count it to 2 %.
   ExpectBalance(solved.statistics, 0.03);
+}
+
+// A doubled sheet under suns from above and below: each side is one face's, of its own material.
+TEST_P(ClassicalMethods, ADoubledSheetHasTwoSides) {
+  const Scene scene = testing::DoubledSheetUnderSuns();
+  const Solved solved = Solve(scene, 0.2);
+  double area = 0;
+  for (int64_t face = 0; face < solved.solution.mesh.FaceCount(); ++face) {
+    const bool isUp = solved.solution.mesh.FrontNormal(face).z > 0;
+    area += double(solved.solution.mesh.Area(face));
+    for (const int32_t p : solved.solution.mesh.triangles[size_t(face)]) {
+      EXPECT_NEAR(solved.solution.irradiance[size_t(p)].g, isUp ? 1 : 4, 1e-4f);
+      EXPECT_NEAR(solved.solution.radiosity[size_t(p)].g, 0.8f, 1e-4f);
+      EXPECT_NEAR(solved.solution.radiosity[size_t(p)].r, isUp ? 0.8f : 2.f, 1e-4f);
+    }
+  }
+  EXPECT_NEAR(area, 8, 1e-4);  // Two sides of 4 m2.
+  ExpectBalance(solved.statistics, 1e-3);
 }
 
 // A floor under an open sky receives pi L; one wall of equal height and infinite length would take

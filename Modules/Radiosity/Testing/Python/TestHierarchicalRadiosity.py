@@ -185,7 +185,8 @@ def by_links_alone(oracle, schedule):
 
 
 mean, links = by_links_alone(method.DOUBT, method.SCHEDULED)
-for oracle, schedule in ((method.GEOMETRIC, 0), (method.BFA, 0), (method.VISIBILITY, 0), (method.DOUBT, method.INTERLEAVED)):
+for oracle, schedule in ((method.GEOMETRIC, 0), (method.BFA, 0), (method.VISIBILITY, 0), (method.PERCEPTUAL, 0),
+                         (method.DOUBT, method.INTERLEAVED)):
     other_mean, other_links = by_links_alone(oracle, schedule)
     assert abs(other_mean - mean) < 0.05 * mean and other_links != links, (oracle, schedule, mean, other_mean)
 

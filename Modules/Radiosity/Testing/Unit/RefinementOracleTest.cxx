@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "Common/Core/Error.h"
+#include "Radiosity/Core/LinkRefinement.h"
 #include "SolverScenes.h"
 
 namespace lambert {
@@ -107,9 +109,49 @@ TEST(RefinementOracle, CertaintyTakesTheDoubtAway) {
   EXPECT_FALSE(open.Oracle(OracleKind::Doubt)->IsCertain(open.Evidence(1)));
 }
 
+TEST(RefinementOracle, PerceptionWeighsByWhatAPictureShows) {
+  const LampOverFloor room(0);
+  const auto perceptual = room.Oracle(OracleKind::Perceptual);
+  const TransferError doubted = room.Oracle(OracleKind::Doubt)->Estimate(room.Evidence(0.5f));
+  const auto weight = [&](float reflected) {
+    LinkEvidence evidence = room.Evidence(0.5f);
+    evidence.reflected = reflected;
+    const TransferError error = perceptual->Estimate(evidence);
+    EXPECT_FLOAT_EQ(error.bySource * doubted.byReceiver, error.byReceiver * doubted.bySource);
+    return error.byReceiver / doubted.byReceiver;
+  };
+  // Before there is light nothing is known of a picture.
+  EXPECT_FLOAT_EQ(weight(0), 1);
+
+  // All that reflects shows 4 W/m2: there the weight is 1, and half of that again for what goes on
+  // to other places. What is darker counts for more, what is brighter for less, but as a source.
+  ElementLight light;
+  light.Grow(*room.hierarchy);
+  for (Spectrum& radiosity : light.radiosity) radiosity += Spectrum(4.f);
+  perceptual->Adapt(*room.hierarchy, light);
+  EXPECT_NEAR(weight(4), 1.5f, 1e-4f);
+  EXPECT_GT(weight(1), weight(4));
+  EXPECT_GT(weight(4), weight(16));
+  EXPECT_NEAR(weight(4e4f), 0.5f, 1e-3f);
+  // Darker than can be told from black: d/dL of (L / (1 + L))^(1/2.2) at 0.009 over that at 0.18.
+  const auto slope = [](double l) {
+    return std::pow(l / (1 + l), 1 / 2.2 - 1) / ((1 + l) * (1 + l));
+  };
+  EXPECT_NEAR(weight(0), slope(0.009) / slope(0.18) + 0.5, 1e-3);
+  EXPECT_EQ(weight(0), weight(1e-3f));
+}
+
+TEST(RefinementOracle, WhatIsEmittedIsNotReflected) {
+  Element lamp;
+  lamp.emittance = Spectrum(10.f);
+  EXPECT_FLOAT_EQ(ReflectedLuminance(lamp, Spectrum(13.f)), 3);
+  EXPECT_EQ(ReflectedLuminance(lamp, Spectrum(10.f)), 0);
+}
+
 TEST(RefinementOracle, NamesAreThoseOfTheCommandLine) {
   EXPECT_EQ(OracleName(OracleKind::Doubt), std::string("doubt"));
   EXPECT_EQ(OracleName(OracleKind::Visibility), std::string("visibility"));
+  EXPECT_EQ(OracleName(OracleKind::Perceptual), std::string("perceptual"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
+#include "Common/Testing/DoubledSheet.h"
 #include "Common/Testing/TestScenes.h"
 #include "Reference/Core/SolutionError.h"
 
@@ -94,6 +95,18 @@ TEST(PathTracedBake, LitBackIsAReversedCopy) {
     }
   }
   for (const Spectrum& e : solution.inputIrradiance) EXPECT_FLOAT_EQ(e.r, float(kPi));
+}
+
+TEST(PathTracedBake, ADoubledSheetHasTwoSides) {
+  const RadiositySolution solution = Bake(DoubledSheetUnderSuns(), 16);
+  ASSERT_EQ(solution.mesh.FaceCount(), 4);
+  for (int64_t face = 0; face < 4; ++face) {
+    const bool isUp = solution.mesh.FrontNormal(face).z > 0;
+    for (const int32_t p : solution.mesh.triangles[size_t(face)]) {
+      EXPECT_FLOAT_EQ(solution.irradiance[size_t(p)].r, isUp ? 1.f : 4.f);
+      EXPECT_FLOAT_EQ(solution.radiosity[size_t(p)].r, isUp ? 0.8f : 2.f);
+    }
+  }
 }
 
 TEST(PathTracedBake, DarkFacesAreDeliveredBlack) {
