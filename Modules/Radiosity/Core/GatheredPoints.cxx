@@ -49,22 +49,29 @@ std::vector<GatheredPoints::Light> GatheredPoints::At(const std::vector<Point>& 
   // Which are new.
   const int32_t first = int32_t(records_.size());
   std::vector<int32_t> recordOfPoint(points.size());
+  int32_t count = first;
   for (size_t p = 0; p < points.size(); ++p) {
-    const auto [place, isNew] = recordOfKey_.try_emplace(points[p].key, int32_t(records_.size()));
+    const auto [place, isNew] = recordOfKey_.try_emplace(points[p].key, count);
     recordOfPoint[p] = place->second;
-    if (isNew) {
+    count += isNew ? 1 : 0;
+  }
+  records_.reserve(size_t(count));
+  for (size_t p = 0; p < points.size(); ++p) {
+    if (recordOfPoint[p] == int32_t(records_.size())) {
       records_.push_back({points[p].at, points[p].isProbe, {}, 0, {}, {}});
       deliveredCount_ += points[p].isProbe ? 0 : 1;
     }
-    records_[size_t(place->second)].at.area = points[p].at.area;
+    records_[size_t(recordOfPoint[p])].at.area = points[p].at.area;
   }
 
   // Their light; then more rays where all of it still scatters.
   if (first < int32_t(records_.size())) {
     this->GatherNew(first, rays, progress);
+    this->SampleAll();
     const SampleNeighbours neighbours(samples_, first);
     this->LookIntoPenumbrae(first, neighbours, rays);
     this->GatherWhereItScatters(first, neighbours, rays, progress);
+    samples_ = {};
   }
   std::vector<Light> lights(points.size());
   ParallelForEach(int64_t(points.size()), 1024, [&](int64_t p) {
@@ -101,9 +108,12 @@ void GatheredPoints::GatherNew(int32_t first, int64_t* rays, const ProgressCallb
                                 HashBits(options_.seed, uint64_t(first + i)), &cast[size_t(i)]);
   });
   for (const int64_t c : cast) *rays += c;
-  for (size_t i = size_t(first); i < records_.size(); ++i) {
-    samples_.push_back(this->SampleOf(records_[i]));
-  }
+}
+
+void GatheredPoints::SampleAll() {
+  samples_.resize(records_.size());
+  ParallelForEach(int64_t(records_.size()), 1024,
+                  [&](int64_t i) { samples_[size_t(i)] = this->SampleOf(records_[size_t(i)]); });
 }
 
 // Few rays are enough in full light and in full shadow, where all neighbours are there too. Its own
@@ -185,6 +195,7 @@ void GatheredPoints::LookIntoPenumbrae(int32_t first, const SampleNeighbours& ne
 void GatheredPoints::Improve(double noise, int64_t* rays, const ProgressCallback& progress) {
   options_.noise = noise;
   if (records_.empty()) return;
+  this->SampleAll();
   const SampleNeighbours neighbours(samples_, 0);
   std::vector<int> more(records_.size(), 0);
   ParallelForEach(int64_t(more.size()), 256, [&](int64_t i) {
@@ -195,6 +206,7 @@ void GatheredPoints::Improve(double noise, int64_t* rays, const ProgressCallback
   });
   this->CastMoreToEmitters(more, 0, rays);
   this->GatherWhereItScatters(0, neighbours, rays, progress);
+  samples_ = {};
 }
 
 // What the bounced light is, all neighbours heard.

@@ -69,12 +69,13 @@ class GatheredPoints {
                              const ProgressCallback& progress);
   std::vector<double> Noise(int32_t first) const;
   IrradianceSample SampleOf(const Record& record) const;
+  void SampleAll();
 
   const FinalGather& gather_;
   GatheredPointsOptions options_;
   const Spectrum brightest_;
-  std::vector<Record> records_;  ///< in the order in which they were asked for
-  std::vector<IrradianceSample> samples_;
+  std::vector<Record> records_;            ///< in the order in which they were asked for
+  std::vector<IrradianceSample> samples_;  ///< of the records, while light is gathered
   std::unordered_map<uint64_t, int32_t> recordOfKey_;
   int64_t deliveredCount_ = 0;  ///< records that are no probes
 };

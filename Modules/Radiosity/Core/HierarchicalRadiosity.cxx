@@ -426,6 +426,13 @@ RadiositySolution HierarchicalRadiosity::Solution() const {
   return self.delivered ? *self.delivered : self.Reconstruct();
 }
 
+RadiositySolution HierarchicalRadiosity::TakeSolution() {
+  Implementation& self = *implementation_;
+  RadiositySolution solution = self.delivered ? std::move(*self.delivered) : self.Reconstruct();
+  self.delivered.reset();
+  return solution;
+}
+
 const SolverStatistics& HierarchicalRadiosity::Statistics() const {
   return implementation_->statistics;
 }
