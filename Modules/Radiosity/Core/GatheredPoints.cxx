@@ -71,7 +71,7 @@ std::vector<GatheredPoints::Light> GatheredPoints::At(const std::vector<Point>& 
     const SampleNeighbours neighbours(samples_, first);
     this->LookIntoPenumbrae(first, neighbours, rays);
     this->GatherWhereItScatters(first, neighbours, rays, progress);
-    samples_ = {};
+    samples_ = std::vector<IrradianceSample>();
   }
   std::vector<Light> lights(points.size());
   ParallelForEach(int64_t(points.size()), 1024, [&](int64_t p) {
@@ -206,7 +206,7 @@ void GatheredPoints::Improve(double noise, int64_t* rays, const ProgressCallback
   });
   this->CastMoreToEmitters(more, 0, rays);
   this->GatherWhereItScatters(0, neighbours, rays, progress);
-  samples_ = {};
+  samples_ = std::vector<IrradianceSample>();
 }
 
 // What the bounced light is, all neighbours heard.

@@ -231,8 +231,8 @@ void RefinedMesh::Triangulate() {
     points_[size_t(p)] = this->MakePoint(group);
   });
   if (use_ == Use::Links) return;
-  corners_ = {};
-  groups_ = {};
+  corners_ = std::vector<Corner>();
+  groups_ = std::vector<Range>();
 }
 
 // Means over the triangles that meet at a point, by angle.

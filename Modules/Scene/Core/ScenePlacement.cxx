@@ -61,7 +61,7 @@ void MoveArray(std::vector<T> TriangleMesh::*array, const std::vector<Part>& par
                const std::vector<int64_t>& begin, const Place& place,
                std::vector<CleanedMesh>* meshes, TriangleMesh* world) {
   PlaceArray(array, parts, begin, place, *meshes, world);
-  for (CleanedMesh& cleaned : *meshes) cleaned.mesh.*array = {};
+  for (CleanedMesh& cleaned : *meshes) cleaned.mesh.*array = std::vector<T>();
 }
 
 void PlacePoints(const std::vector<Part>& parts, const std::vector<Placement>& placements,

@@ -150,7 +150,7 @@ void FileReader::Import() {
                 (cause.empty() ? "" : " (" + cause + ")") +
                 "; check that it is whole and of a known format.");
   }
-  bytes_ = {};
+  std::string().swap(bytes_);
 }
 
 void FileReader::DeclareUnit() {
