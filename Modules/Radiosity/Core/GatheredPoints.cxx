@@ -49,18 +49,9 @@ std::vector<GatheredPoints::Light> GatheredPoints::At(const std::vector<Point>& 
   // Which are new.
   const int32_t first = int32_t(records_.size());
   std::vector<int32_t> recordOfPoint(points.size());
-  int32_t count = first;
+  if (records_.empty()) records_.reserve(2 * points.size());  // With room for what is cut later.
   for (size_t p = 0; p < points.size(); ++p) {
-    const auto [place, isNew] = recordOfKey_.try_emplace(points[p].key, count);
-    recordOfPoint[p] = place->second;
-    count += isNew ? 1 : 0;
-  }
-  records_.reserve(size_t(count));
-  for (size_t p = 0; p < points.size(); ++p) {
-    if (recordOfPoint[p] == int32_t(records_.size())) {
-      records_.push_back({points[p].at, points[p].isProbe, {}, 0, {}, {}});
-      deliveredCount_ += points[p].isProbe ? 0 : 1;
-    }
+    recordOfPoint[p] = this->FindOrAdd(points[p]);
     records_[size_t(recordOfPoint[p])].at.area = points[p].at.area;
   }
 
@@ -81,6 +72,29 @@ std::vector<GatheredPoints::Light> GatheredPoints::At(const std::vector<Point>& 
                          record.bounced.variance, index >= first};
   });
   return lights;
+}
+
+int32_t GatheredPoints::FindOrAdd(const Point& point) {
+  const auto placeOf = [&](uint64_t key) {
+    size_t place = size_t(HashBits(key)) & (recordOfKey_.size() - 1);
+    while (recordOfKey_[place] >= 0 && records_[size_t(recordOfKey_[place])].key != key) {
+      place = (place + 1) & (recordOfKey_.size() - 1);
+    }
+    return place;
+  };
+  if (2 * records_.size() >= recordOfKey_.size()) {
+    recordOfKey_.assign(std::max<size_t>(1024, 2 * recordOfKey_.size()), -1);
+    for (size_t i = 0; i < records_.size(); ++i) {
+      recordOfKey_[placeOf(records_[i].key)] = int32_t(i);
+    }
+  }
+  int32_t& record = recordOfKey_[placeOf(point.key)];
+  if (record < 0) {
+    record = int32_t(records_.size());
+    records_.push_back({point.key, point.at, point.isProbe, {}, 0, {}, {}});
+    deliveredCount_ += point.isProbe ? 0 : 1;
+  }
+  return record;
 }
 
 IrradianceSample GatheredPoints::SampleOf(const Record& record) const {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/MemoryCeiling.h"
 #include "Common/Core/Timer.h"
 #include "Radiosity/Core/ElementCounts.h"
 #include "Radiosity/Core/EnergyBalance.h"
@@ -384,6 +385,7 @@ void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
       if (!self.memory.HasRoomForCuts(*self.delivered)) statistics.stoppedBy = "memory";
       if (!statistics.stoppedBy.empty()) return;
     }
+    ReturnFreedMemory();  // Verification takes the most.
     if (self.EndsVerified(&verification)) return;
     // More rays take away no more than their scatter.
     const double scatter = NoiseFor(aim), error = verification.Error();

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/MemoryCeiling.h"
 #include "Scene/Core/SceneReaderFiles.h"
 #include "Scene/Core/SceneReaderGltf.h"
 #include "Scene/Core/SceneReaderMeshes.h"
@@ -400,6 +401,7 @@ SceneAssembly ReadScene(const std::vector<std::string>& files, const SceneReader
                  "\" is missing or cannot be decoded; its factor counts alone.");
   }
   assembly.report.texturesMissing = int64_t(textures.Missing().size());
+  ReturnFreedMemory();  // Importers free small pieces by the million.
   Report(progress, 1, "Reading scene");
   return assembly;
 }
