@@ -178,7 +178,7 @@ void RadiosityRun::Solve(const ProgressCallback& progress, const std::function<b
 
   // Reconstruct.
   timer.Restart();
-  this->solution_ = solver.Solution();
+  this->solution_ = solver.TakeSolution();
   this->statistics_ = solver.Statistics();
   // A request met, or a floor reached, in the last iteration that fitted counts before the clock.
   if (!stoppedBy.empty() && this->statistics_.stoppedBy == "interrupt") {

@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <set>
 #include <vtksys/SystemTools.hxx>
 
@@ -64,20 +63,25 @@ bool HasKnownTypes(const std::string& file) {
   static const std::set<std::string> known{"Int8",    "Int16",   "Int32",  "Int64",
                                            "UInt8",   "UInt16",  "UInt32", "UInt64",
                                            "Float32", "Float64", "String", "Bit"};
+  // Tags, each with what stands before it; appended data are not read.
   std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  text.erase(std::min(text.size(), text.find("<AppendedData")));
-  for (const std::string element : {"<DataArray", "<Array"}) {
-    for (size_t at = 0; (at = text.find(element, at)) != std::string::npos; at += element.size()) {
-      const std::string tag = text.substr(at, text.find('>', at) - at);
-      const size_t type = tag.find(" type=");
-      if (type == std::string::npos || type + 8 > tag.size()) {
-        return false;
-      }
-      const size_t begin = type + 7;  // Behind the quotation mark, of either kind.
-      if (known.count(tag.substr(begin, tag.find(tag[begin - 1], begin) - begin)) == 0) {
-        return false;
-      }
+  std::string text;
+  while (std::getline(stream, text, '>') && text.find("<AppendedData") == text.npos) {
+    const size_t begin = text.rfind('<');
+    if (begin == text.npos) {
+      continue;
+    }
+    const std::string tag = text.substr(begin);
+    if (tag.rfind("<DataArray", 0) != 0 && tag.rfind("<Array", 0) != 0) {
+      continue;
+    }
+    const size_t type = tag.find(" type=");
+    if (type == std::string::npos || type + 8 > tag.size()) {
+      return false;
+    }
+    const size_t first = type + 7;  // Behind the quotation mark, of either kind.
+    if (known.count(tag.substr(first, tag.find(tag[first - 1], first) - first)) == 0) {
+      return false;
     }
   }
   return true;
@@ -114,45 +118,74 @@ vtkSmartPointer<vtkPolyData> ReadVtp(const std::string& file) {
   return reader->GetOutput();
 }
 
-/// The faces of one part as a mesh of its own. `local` is -1 for every point, before and after.
-TriangleMesh ExtractFaces(const TriangleMesh& all, const std::vector<int64_t>& faces,
-                          std::vector<int32_t>* local) {
-  TriangleMesh mesh;
-  std::vector<size_t> points;
-  for (const int64_t face : faces) {
-    const size_t from = static_cast<size_t>(face);
-    std::array<int32_t, 3> corners = all.triangles[from];
-    for (int32_t& corner : corners) {
-      int32_t& index = (*local)[static_cast<size_t>(corner)];
-      if (index < 0) {
-        index = static_cast<int32_t>(points.size());
-        points.push_back(static_cast<size_t>(corner));
+/// Faces and points of a part, in the mesh that holds all.
+struct PartExtent {
+  std::vector<int32_t> faces, points;
+};
+
+/// What each part has; the points in the order in which its faces name them, by which `all` names
+/// them then.
+std::vector<PartExtent> FindParts(size_t partCount, TriangleMesh* all) {
+  std::vector<PartExtent> parts(partCount);
+  for (size_t face = 0; face < all->triangles.size(); ++face) {
+    parts[static_cast<size_t>(all->partId[face])].faces.push_back(static_cast<int32_t>(face));
+  }
+  std::vector<int32_t> local(all->positions.size(), -1);
+  for (PartExtent& part : parts) {
+    for (const int32_t face : part.faces) {
+      for (int32_t& corner : all->triangles[static_cast<size_t>(face)]) {
+        int32_t& index = local[static_cast<size_t>(corner)];
+        if (index < 0) {
+          index = static_cast<int32_t>(part.points.size());
+          part.points.push_back(corner);
+        }
+        corner = index;
       }
-      corner = index;
     }
-    mesh.triangles.push_back(corners);
-    mesh.reflectance.push_back(all.reflectance[from]);
-    mesh.emittance.push_back(all.emittance[from]);
-    mesh.faceFlags.push_back(all.faceFlags[from]);
-    mesh.materialId.push_back(all.materialId[from]);
-    mesh.sourceCellId.push_back(all.sourceCellId[from]);
+    for (const int32_t point : part.points) {
+      local[static_cast<size_t>(point)] = -1;
+    }
   }
-  for (const size_t point : points) {
-    mesh.positions.push_back(all.positions[point]);
-    if (!all.normals.empty()) {
-      mesh.normals.push_back(all.normals[point]);
+  return parts;
+}
+
+/// Gives each mesh its entries of an array, and frees that of all.
+template <class T>
+void Distribute(std::vector<T> TriangleMesh::*array, std::vector<int32_t> PartExtent::*entries,
+                const std::vector<PartExtent>& parts, TriangleMesh* all, TriangleMesh* meshes) {
+  const std::vector<T> values = std::move(all->*array);
+  for (size_t part = 0; part < parts.size() && !values.empty(); ++part) {
+    const std::vector<int32_t>& from = parts[part].*entries;
+    std::vector<T>& to = meshes[part].*array;
+    to.reserve(from.size());
+    for (const int32_t i : from) {
+      to.push_back(values[static_cast<size_t>(i)]);
     }
-    if (!all.uvs.empty()) {
-      mesh.uvs.push_back(all.uvs[point]);
-    }
-    (*local)[point] = -1;
   }
-  return mesh;
+}
+
+/// A mesh for each part.
+std::vector<TriangleMesh> SplitIntoParts(size_t partCount, TriangleMesh all) {
+  const std::vector<PartExtent> parts = FindParts(partCount, &all);
+  std::vector<TriangleMesh> meshes(partCount);
+  const auto distribute = [&](auto array, std::vector<int32_t> PartExtent::*entries) {
+    Distribute(array, entries, parts, &all, meshes.data());
+  };
+  distribute(&TriangleMesh::positions, &PartExtent::points);
+  distribute(&TriangleMesh::normals, &PartExtent::points);
+  distribute(&TriangleMesh::uvs, &PartExtent::points);
+  distribute(&TriangleMesh::triangles, &PartExtent::faces);
+  distribute(&TriangleMesh::reflectance, &PartExtent::faces);
+  distribute(&TriangleMesh::emittance, &PartExtent::faces);
+  distribute(&TriangleMesh::faceFlags, &PartExtent::faces);
+  distribute(&TriangleMesh::materialId, &PartExtent::faces);
+  distribute(&TriangleMesh::sourceCellId, &PartExtent::faces);
+  return meshes;
 }
 
 /// What a VTP's faces lack is taken from the options.
-void ApplyOptions(vtkPolyData* input, const SceneReaderOptions& options, Scene* scene) {
-  if (!input->GetCellData()->GetArray(vtkRadiosityArrays::Reflectance())) {
+void ApplyOptions(bool hasReflectance, const SceneReaderOptions& options, Scene* scene) {
+  if (!hasReflectance) {
     scene->mesh.reflectance.assign(scene->mesh.triangles.size(), options.defaultReflectance);
     for (Material& material : scene->materials) {
       material.reflectance = options.defaultReflectance;
@@ -187,17 +220,13 @@ void AppendScene(Scene scene, double metresPerUnit, SceneAssembly* assembly) {
   for (int32_t& material : scene.mesh.materialId) {
     material += materialOffset;
   }
-  std::vector<std::vector<int64_t>> facesOfPart(scene.parts.size());
-  for (int64_t face = 0; face < scene.mesh.FaceCount(); ++face) {
-    facesOfPart[static_cast<size_t>(scene.mesh.partId[static_cast<size_t>(face)])].push_back(face);
-  }
-  std::vector<int32_t> local(scene.mesh.positions.size(), -1);
+  std::vector<TriangleMesh> meshes = SplitIntoParts(scene.parts.size(), std::move(scene.mesh));
   for (size_t i = 0; i < scene.parts.size(); ++i) {
     Part& part = scene.parts[i];
     part.meshId = static_cast<int32_t>(assembly->meshes.size());
     part.objectToWorld = {
         metresPerUnit, 0, 0, 0, 0, metresPerUnit, 0, 0, 0, 0, metresPerUnit, 0, 0, 0, 0, 1};
-    assembly->meshes.push_back(ExtractFaces(scene.mesh, facesOfPart[i], &local));
+    assembly->meshes.push_back(std::move(meshes[i]));
     assembly->parts.push_back(part);
   }
   assembly->materials.insert(assembly->materials.end(), scene.materials.begin(),
@@ -242,14 +271,17 @@ Scene LoadScene(const std::vector<std::string>& files, const SceneReaderOptions&
     vtkSmartPointer<vtkPolyData> stored = ReadVtp(file);
     Scene scene = SceneAsStoredInPolyData(stored);
     ReadEnvironmentImages(&scene.lights);
-    ApplyOptions(stored, readerOptions, &scene);
+    const bool hasReflectance =
+        stored->GetCellData()->GetArray(vtkRadiosityArrays::Reflectance()) != nullptr;
+    assembly.report.faces += stored->GetNumberOfPolys() + stored->GetNumberOfStrips();
+    stored = nullptr;
+    ApplyOptions(hasReflectance, readerOptions, &scene);
     Scale(metresPerUnit, &scene);
     for (size_t i = 0; i < scene.parts.size(); ++i) {
       storedMatrices.emplace_back(assembly.parts.size() + i, scene.parts[i].objectToWorld);
     }
     AppendScene(std::move(scene), metresPerUnit, &assembly);
     assembly.report.files.push_back(file);
-    assembly.report.faces += stored->GetNumberOfPolys() + stored->GetNumberOfStrips();
   }
   if (otherFiles.empty()) {
     assembly.report.unit = "m";

@@ -21,9 +21,9 @@ constexpr int32_t kLargeSurface = 1 << 15;
 
 /// Merge trees of all surfaces; large ones first, then the others side by side.
 std::vector<MergeTree> CollapseSurfaces(const TriangleMesh& mesh, const PartFaces& parts,
-                                        const DualGraph& graph, const Surfaces& surfaces,
-                                        double balance, const ProgressCallback& progress) {
-  // Faces and their neighbours, numbered within the surface.
+                                        DualGraph* graph, const Surfaces& surfaces, double balance,
+                                        const ProgressCallback& progress) {
+  // Faces and their neighbours, numbered within the surface; those of the graph are freed.
   const size_t count = surfaces.slots.size();
   std::vector<int32_t> faces(count), placeOfSlot(parts.faces.size(), -1);
   std::vector<std::array<int32_t, 3>> neighbours(count);
@@ -36,12 +36,13 @@ std::vector<MergeTree> CollapseSurfaces(const TriangleMesh& mesh, const PartFace
       const size_t slot = size_t(surfaces.slots[size_t(i)]);
       faces[size_t(i)] = parts.faces[slot];
       for (size_t k = 0; k < 3; ++k) {
-        const int32_t other = graph.neighbours[slot][k];
+        const int32_t other = graph->neighbours[slot][k];
         neighbours[size_t(i)][k] = other < 0 ? -1 : placeOfSlot[size_t(other)];
       }
     }
   });
-  placeOfSlot = {};
+  std::vector<int32_t>().swap(placeOfSlot);
+  std::vector<std::array<int32_t, 3>>().swap(graph->neighbours);
 
   const auto collapse = [&](int32_t surface, const std::function<bool(double)>& proceed) {
     const int32_t begin = surfaces.begin[size_t(surface)];
@@ -219,8 +220,7 @@ ClusterTree ClusterFaces(TriangleMesh* mesh, const std::vector<Part>& partTable,
   DualGraph graph = BuildDualGraph(*mesh, parts, clustered);
   const Surfaces surfaces = FindSurfaces(graph, parts, clustered);
   std::vector<MergeTree> trees =
-      CollapseSurfaces(*mesh, parts, graph, surfaces, options.balance, progress);
-  graph.neighbours = {};
+      CollapseSurfaces(*mesh, parts, &graph, surfaces, options.balance, progress);
 
   // Every surface's place among nodes and faces; instances take the tree and the order of their
   // model.
@@ -238,7 +238,7 @@ ClusterTree ClusterFaces(TriangleMesh* mesh, const std::vector<Part>& partTable,
         });
     if (at.part == at.model) depths[size_t(at.modelSurface)] = depth;
   });
-  trees = {};
+  std::vector<MergeTree>().swap(trees);
 
   // Faces in tree order, and what the clusters measure in the world.
   ReorderFaces(order, mesh);

@@ -13,9 +13,11 @@ int64_t ResidentMemoryBytes() {
   return file >> program >> resident ? resident * sysconf(_SC_PAGESIZE) : 0;
 }
 
+void ReturnFreedMemory() { malloc_trim(0); }
+
 bool MemoryCeiling::HasRoomFor(double bytes) const {
   if (bytes_ <= 0 || double(ResidentMemoryBytes()) + bytes <= bytes_) return true;
-  malloc_trim(0);
+  ReturnFreedMemory();
   return double(ResidentMemoryBytes()) + bytes <= bytes_;
 }
 

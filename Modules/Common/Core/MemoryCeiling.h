@@ -8,6 +8,9 @@ namespace lambert {
 /// Resident size of this process now, in bytes; 0 where the system does not tell.
 int64_t ResidentMemoryBytes();
 
+/// Gives what was freed back to the system, where the allocator keeps it; some milliseconds.
+void ReturnFreedMemory();
+
 class MemoryCeiling {
  public:
   /// `megabytes` of 1e6 bytes, [0, inf); 0: no ceiling.

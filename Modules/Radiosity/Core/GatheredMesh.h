@@ -24,7 +24,7 @@ class GatheredMesh {
         seed_(options.seed),
         gathered_(gather, options),
         skip_(skip),
-        mesh_(hierarchy, litSides),
+        mesh_(hierarchy, litSides, RefinedMesh::Use::Gather),
         firstTriangles_(int64_t(mesh_.Triangles().size())) {}
 
   /// Light at the points that have none yet.

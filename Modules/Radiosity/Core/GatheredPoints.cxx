@@ -49,22 +49,20 @@ std::vector<GatheredPoints::Light> GatheredPoints::At(const std::vector<Point>& 
   // Which are new.
   const int32_t first = int32_t(records_.size());
   std::vector<int32_t> recordOfPoint(points.size());
+  if (records_.empty()) records_.reserve(2 * points.size());  // With room for what is cut later.
   for (size_t p = 0; p < points.size(); ++p) {
-    const auto [place, isNew] = recordOfKey_.try_emplace(points[p].key, int32_t(records_.size()));
-    recordOfPoint[p] = place->second;
-    if (isNew) {
-      records_.push_back({points[p].at, points[p].isProbe, {}, 0, {}, {}});
-      deliveredCount_ += points[p].isProbe ? 0 : 1;
-    }
-    records_[size_t(place->second)].at.area = points[p].at.area;
+    recordOfPoint[p] = this->FindOrAdd(points[p]);
+    records_[size_t(recordOfPoint[p])].at.area = points[p].at.area;
   }
 
   // Their light; then more rays where all of it still scatters.
   if (first < int32_t(records_.size())) {
     this->GatherNew(first, rays, progress);
+    this->SampleAll();
     const SampleNeighbours neighbours(samples_, first);
     this->LookIntoPenumbrae(first, neighbours, rays);
     this->GatherWhereItScatters(first, neighbours, rays, progress);
+    samples_ = std::vector<IrradianceSample>();
   }
   std::vector<Light> lights(points.size());
   ParallelForEach(int64_t(points.size()), 1024, [&](int64_t p) {
@@ -74,6 +72,29 @@ std::vector<GatheredPoints::Light> GatheredPoints::At(const std::vector<Point>& 
                          record.bounced.variance, index >= first};
   });
   return lights;
+}
+
+int32_t GatheredPoints::FindOrAdd(const Point& point) {
+  const auto placeOf = [&](uint64_t key) {
+    size_t place = size_t(HashBits(key)) & (recordOfKey_.size() - 1);
+    while (recordOfKey_[place] >= 0 && records_[size_t(recordOfKey_[place])].key != key) {
+      place = (place + 1) & (recordOfKey_.size() - 1);
+    }
+    return place;
+  };
+  if (2 * records_.size() >= recordOfKey_.size()) {
+    recordOfKey_.assign(std::max<size_t>(1024, 2 * recordOfKey_.size()), -1);
+    for (size_t i = 0; i < records_.size(); ++i) {
+      recordOfKey_[placeOf(records_[i].key)] = int32_t(i);
+    }
+  }
+  int32_t& record = recordOfKey_[placeOf(point.key)];
+  if (record < 0) {
+    record = int32_t(records_.size());
+    records_.push_back({point.key, point.at, point.isProbe, {}, 0, {}, {}});
+    deliveredCount_ += point.isProbe ? 0 : 1;
+  }
+  return record;
 }
 
 IrradianceSample GatheredPoints::SampleOf(const Record& record) const {
@@ -101,9 +122,12 @@ void GatheredPoints::GatherNew(int32_t first, int64_t* rays, const ProgressCallb
                                 HashBits(options_.seed, uint64_t(first + i)), &cast[size_t(i)]);
   });
   for (const int64_t c : cast) *rays += c;
-  for (size_t i = size_t(first); i < records_.size(); ++i) {
-    samples_.push_back(this->SampleOf(records_[i]));
-  }
+}
+
+void GatheredPoints::SampleAll() {
+  samples_.resize(records_.size());
+  ParallelForEach(int64_t(records_.size()), 1024,
+                  [&](int64_t i) { samples_[size_t(i)] = this->SampleOf(records_[size_t(i)]); });
 }
 
 // Few rays are enough in full light and in full shadow, where all neighbours are there too. Its own
@@ -185,6 +209,7 @@ void GatheredPoints::LookIntoPenumbrae(int32_t first, const SampleNeighbours& ne
 void GatheredPoints::Improve(double noise, int64_t* rays, const ProgressCallback& progress) {
   options_.noise = noise;
   if (records_.empty()) return;
+  this->SampleAll();
   const SampleNeighbours neighbours(samples_, 0);
   std::vector<int> more(records_.size(), 0);
   ParallelForEach(int64_t(more.size()), 256, [&](int64_t i) {
@@ -195,6 +220,7 @@ void GatheredPoints::Improve(double noise, int64_t* rays, const ProgressCallback
   });
   this->CastMoreToEmitters(more, 0, rays);
   this->GatherWhereItScatters(0, neighbours, rays, progress);
+  samples_ = std::vector<IrradianceSample>();
 }
 
 // What the bounced light is, all neighbours heard.

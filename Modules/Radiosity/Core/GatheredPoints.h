@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "Common/Core/Progress.h"
@@ -51,6 +50,7 @@ class GatheredPoints {
 
  private:
   struct Record {
+    uint64_t key;
     GatherPoint at;
     bool isProbe = false;
     DirectSample direct;
@@ -59,6 +59,7 @@ class GatheredPoints {
     FilteredIrradiance bounced;
   };
 
+  int32_t FindOrAdd(const Point& point);
   void GatherNew(int32_t first, int64_t* rays, const ProgressCallback& progress);
   bool IsInPenumbra(int32_t record, const SampleNeighbours& neighbours) const;
   double ScatterOfShadow(int32_t record, const SampleNeighbours& neighbours, double mean) const;
@@ -69,13 +70,16 @@ class GatheredPoints {
                              const ProgressCallback& progress);
   std::vector<double> Noise(int32_t first) const;
   IrradianceSample SampleOf(const Record& record) const;
+  void SampleAll();
 
   const FinalGather& gather_;
   GatheredPointsOptions options_;
   const Spectrum brightest_;
-  std::vector<Record> records_;  ///< in the order in which they were asked for
-  std::vector<IrradianceSample> samples_;
-  std::unordered_map<uint64_t, int32_t> recordOfKey_;
+  std::vector<Record> records_;            ///< in the order in which they were asked for
+  std::vector<IrradianceSample> samples_;  ///< of the records, while light is gathered
+  /// The records by their keys: each from the place on that its key hashes to, in the first that
+  /// was free; -1 for a free one. A power of two of them, at most half of them taken.
+  std::vector<int32_t> recordOfKey_;
   int64_t deliveredCount_ = 0;  ///< records that are no probes
 };
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/MemoryCeiling.h"
 #include "Common/Core/Timer.h"
 #include "Radiosity/Core/ElementCounts.h"
 #include "Radiosity/Core/EnergyBalance.h"
@@ -418,6 +419,7 @@ void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
       if (!self.memory.HasRoomForCuts(*self.delivered)) statistics.stoppedBy = "memory";
       if (!statistics.stoppedBy.empty()) return;
     }
+    ReturnFreedMemory();  // Verification takes the most.
     if (self.EndsVerified(&verification)) return;
     // More rays take away no more than their scatter.
     const double scatter = NoiseFor(aim), error = verification.Error();
@@ -458,6 +460,13 @@ bool HierarchicalRadiosity::Relight() {
 RadiositySolution HierarchicalRadiosity::Solution() const {
   Implementation& self = *implementation_;
   return self.delivered ? *self.delivered : self.Reconstruct();
+}
+
+RadiositySolution HierarchicalRadiosity::TakeSolution() {
+  Implementation& self = *implementation_;
+  RadiositySolution solution = self.delivered ? std::move(*self.delivered) : self.Reconstruct();
+  self.delivered.reset();
+  return solution;
 }
 
 const SolverStatistics& HierarchicalRadiosity::Statistics() const {

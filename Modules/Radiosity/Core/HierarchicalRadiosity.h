@@ -87,6 +87,8 @@ class HierarchicalRadiosity {
   /// The displayable solution as it stands: that of the final gather once there is one, before it
   /// the reconstruction of 4.5.5 on the refined mesh.
   RadiositySolution Solution() const;
+  /// The same, once: the one of a final gather is handed over instead of copied.
+  RadiositySolution TakeSolution();
   const SolverStatistics& Statistics() const;
 
  private:

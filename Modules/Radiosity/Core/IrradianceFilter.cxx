@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nanoflann.hpp>
 
 #include "Common/Core/Parallel.h"
+#include "Radiosity/Core/NearestPoints.h"
 
 namespace lambert {
 
 namespace {
 
-/// Points in a leaf of the search tree.
-constexpr size_t kLeafSize = 10;
 /// Normals whose cosine is larger look the same way; a neighbour lies as flat as this sine says.
 constexpr float kAlike = 0.9f, kFlat = 0.25f;
 /// Slopes are held back by this part of the samples' own spread: along a line of them nothing is
@@ -21,19 +19,6 @@ constexpr double kSlopeRidge = 0.05;
 /// What is thought of the scatter before it is known: that of so many rays, each as far off as the
 /// mean or the usual light is large.
 constexpr float kPriorRays = 2;
-
-struct Positions {
-  const std::vector<IrradianceSample>& samples;
-  size_t kdtree_get_point_count() const { return samples.size(); }
-  float kdtree_get_pt(size_t i, size_t axis) const { return samples[i].position[int(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Positions>,
-                                                 Positions, 3, uint32_t>;
 
 /// A neighbour's place in the tangent plane, in units of the reach, and its weight.
 struct Neighbour {
@@ -75,22 +60,26 @@ struct PlaneFit {
 
 SampleNeighbours::SampleNeighbours(const std::vector<IrradianceSample>& samples, int32_t first)
     : first_(first),
-      lists_((samples.size() - size_t(first)) * kMost),
+      lists_(new int32_t[(samples.size() - size_t(first)) * kMost]),
       counts_(samples.size() - size_t(first), 0) {
-  const Positions positions{samples};
-  const Tree tree(3, positions, {kLeafSize});
-  ParallelForEach(int64_t(counts_.size()), 64, [&](int64_t i) {
-    const int32_t sample = first + int32_t(i);
+  std::vector<Vec3f> positions(samples.size());
+  for (size_t i = 0; i < samples.size(); ++i) positions[i] = samples[i].position;
+  const NearestPoints nearest(positions);
+  ParallelForEach(int64_t(samples.size()), 64, [&](int64_t place) {
+    const int32_t sample = nearest.InOrder()[size_t(place)];
+    if (sample < first) return;
     const IrradianceSample& own = samples[size_t(sample)];
-    std::array<uint32_t, kMost + 1> found;
+    std::array<int32_t, kMost + 1> found;
     std::array<float, kMost + 1> squares;
-    const size_t size = tree.knnSearch(&own.position.x, found.size(), found.data(), squares.data());
-    for (size_t k = 0; k < size && counts_[size_t(i)] < kMost; ++k) {
-      const IrradianceSample& other = samples[found[k]];
-      if (int32_t(found[k]) == sample || Dot(own.normal, other.normal) < kAlike) continue;
+    const int size = nearest.Find(own.position, kMost + 1, found.data(), squares.data());
+    int32_t* const list = &lists_[size_t(sample - first) * kMost];
+    uint8_t& count = counts_[size_t(sample - first)];
+    for (size_t k = 0; k < size_t(size) && count < kMost; ++k) {
+      const IrradianceSample& other = samples[size_t(found[k])];
+      if (found[k] == sample || Dot(own.normal, other.normal) < kAlike) continue;
       const float height = Dot(other.position - own.position, own.normal);
       if (height * height > kFlat * kFlat * squares[k]) continue;
-      lists_[size_t(i) * kMost + size_t(counts_[size_t(i)]++)] = int32_t(found[k]);
+      list[count++] = found[k];
     }
   });
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "Common/Core/Spectrum.h"
@@ -40,8 +41,8 @@ class SampleNeighbours {
 
  private:
   int32_t first_;
-  std::vector<int32_t> lists_;
-  std::vector<int32_t> counts_;
+  std::unique_ptr<int32_t[]> lists_;  ///< kMost places a sample
+  std::vector<uint8_t> counts_;
 };
 
 /// Irradiance at a sample: a plane fitted to what it and its neighbours found, as far as they lie

@@ -14,7 +14,7 @@ LinkSolution::LinkSolution(ElementHierarchy* hierarchy, const LinkNetwork& netwo
                            const std::vector<uint8_t>& litSides, bool keeps)
     : keeps_(keeps),
       reconstruction_(*hierarchy, network, light, rayScene, &room_),
-      mesh_(hierarchy, litSides),
+      mesh_(hierarchy, litSides, RefinedMesh::Use::Links),
       atPoints_(&room_) {
   if (!keeps) return;
   room_ = kMostOfTriangle * int64_t(mesh_.Triangles().size()) + kMostOfLink * network.Count();

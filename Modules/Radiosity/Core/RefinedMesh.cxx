@@ -89,22 +89,26 @@ std::vector<Corner> SortedCorners(const std::vector<LeafTriangle>& triangles, si
 std::vector<Range> PointGroups(const std::vector<Corner>& corners,
                                const std::vector<LeafTriangle>& triangles,
                                const std::vector<int32_t>& surfaceId) {
-  // The group that begins with a corner; empty where none does.
-  std::vector<Range> groupFrom(corners.size(), {0, 0});
+  const auto keyOf = [&](size_t i) {
+    return KeyOf(triangles[size_t(corners[i].triangle)], corners[i].corner, surfaceId);
+  };
+  const auto endFrom = [&](size_t begin) {
+    size_t end = begin + 1;
+    while (end < corners.size() && keyOf(end) == keyOf(begin)) ++end;
+    return end;
+  };
+
+  // Where the group lies that begins with a corner; -1 where none does.
+  std::vector<int32_t> groupFrom(corners.size(), -1);
   size_t count = 0;
-  for (size_t begin = 0, end = 0; begin < corners.size(); begin = end, ++count) {
+  for (size_t begin = 0; begin < corners.size(); begin = endFrom(begin), ++count) {
     const Corner& first = corners[begin];
-    const uint64_t key = KeyOf(triangles[size_t(first.triangle)], first.corner, surfaceId);
-    for (end = begin + 1; end < corners.size(); ++end) {
-      const Corner& corner = corners[end];
-      if (KeyOf(triangles[size_t(corner.triangle)], corner.corner, surfaceId) != key) break;
-    }
-    groupFrom[size_t(first.triangle) * 3 + size_t(first.corner)] = {int64_t(begin), int64_t(end)};
+    groupFrom[size_t(first.triangle) * 3 + size_t(first.corner)] = int32_t(begin);
   }
   std::vector<Range> groups;
   groups.reserve(count);
-  for (const Range& group : groupFrom) {
-    if (group.end > 0) groups.push_back(group);
+  for (const int32_t begin : groupFrom) {
+    if (begin >= 0) groups.push_back({begin, int32_t(endFrom(size_t(begin)))});
   }
   return groups;
 }
@@ -189,8 +193,8 @@ void FillFaces(const TriangleMesh& input, const std::vector<LeafTriangle>& trian
 
 }  // namespace
 
-RefinedMesh::RefinedMesh(ElementHierarchy* hierarchy, const std::vector<uint8_t>& litSides)
-    : hierarchy_(hierarchy) {
+RefinedMesh::RefinedMesh(ElementHierarchy* hierarchy, const std::vector<uint8_t>& litSides, Use use)
+    : hierarchy_(hierarchy), use_(use) {
   const TriangleMesh& input = hierarchy->GetScene().mesh;
   faceSides_.resize(input.triangles.size());
   for (size_t face = 0; face < faceSides_.size(); ++face) {
@@ -226,6 +230,9 @@ void RefinedMesh::Triangulate() {
     }
     points_[size_t(p)] = this->MakePoint(group);
   });
+  if (use_ == Use::Links) return;
+  corners_ = std::vector<Corner>();
+  groups_ = std::vector<Range>();
 }
 
 // Means over the triangles that meet at a point, by angle.
@@ -237,13 +244,13 @@ RefinedMesh::Point RefinedMesh::MakePoint(const Range& group) const {
   point.key = KeyOf(triangles_[size_t(first.triangle)], first.corner, input.surfaceId);
   const int32_t vertex = VertexOf(point);
   point.position = vertices.Position(vertex);
+  Vec3f faceNormal;
   float largest = -1;
   for (int64_t i = group.begin; i < group.end; ++i) {
     const Corner& corner = corners_[size_t(i)];
     const LeafTriangle& triangle = triangles_[size_t(corner.triangle)];
     const float angle = AngleAt(vertices, triangle, corner.corner);
-    point.faceNormal +=
-        input.FrontNormal(triangle.face) * (triangle.side == kBack ? -angle : angle);
+    faceNormal += input.FrontNormal(triangle.face) * (triangle.side == kBack ? -angle : angle);
     const Vec3f p = vertices.Position(triangle.vertices[0]);
     const float area = Length(Cross(vertices.Position(triangle.vertices[1]) - p,
                                     vertices.Position(triangle.vertices[2]) - p));
@@ -259,9 +266,8 @@ RefinedMesh::Point RefinedMesh::MakePoint(const Range& group) const {
     point.inside = inside.position;
     point.insideNormal = isBack ? -inside.frontNormal : inside.frontNormal;
   }
-  point.faceNormal = Normalize(point.faceNormal);
   point.normal = Normalize(vertices.Interpolate(input.normals, vertex));
-  if (Dot(point.normal, point.faceNormal) < 0) point.normal = -point.normal;
+  if (Dot(point.normal, Normalize(faceNormal)) < 0) point.normal = -point.normal;
   if (!input.uvs.empty()) point.uv = vertices.Interpolate(input.uvs, vertex);
   this->AverageMaterial(group, &point);
   return point;

@@ -19,7 +19,6 @@ class RefinedMesh {
     uint64_t key = 0;  ///< of its vertex, surface and side: the same after another triangulation
     Vec3f position;
     Vec3f normal;        ///< unit; irradiance is for it
-    Vec3f faceNormal;    ///< unit, mean of the faces that meet here
     Vec3f inside;        ///< light is asked for a little toward it: for an input point as
                          ///< VertexReceivers says, else the middle of the largest triangle here
     Vec3f insideNormal;  ///< unit, of the face that lies there
@@ -31,12 +30,17 @@ class RefinedMesh {
     int32_t triangle, corner;
   };
   struct Range {
-    int64_t begin, end;
+    int32_t begin, end;
+  };
+  /// What is asked of a mesh beside its points and triangles.
+  enum class Use : uint8_t {
+    Links,  ///< light from the links, other materials: who meets at a point stays known
+    Gather  ///< neither
   };
 
   /// Triangulates the leaves. `litSides` as given to the hierarchy, per surface; a face that has no
   /// lit side is delivered black, by its front.
-  RefinedMesh(ElementHierarchy* hierarchy, const std::vector<uint8_t>& litSides);
+  RefinedMesh(ElementHierarchy* hierarchy, const std::vector<uint8_t>& litSides, Use use);
 
   /// Again, after patches were split.
   void Triangulate();
@@ -62,6 +66,7 @@ class RefinedMesh {
   std::vector<LightReconstruction::Share> Shares(int64_t point) const;
 
   ElementHierarchy* hierarchy_;
+  const Use use_;
   std::vector<uint8_t> faceSides_;
   /// What lies inside of an input point, and the front normal of the face that does.
   struct Inside {
@@ -70,8 +75,8 @@ class RefinedMesh {
   std::vector<Inside> insideOfPoint_;
   std::vector<LeafTriangle> triangles_;
   std::vector<int32_t> leaves_;  ///< per triangle: its leaf element; -1 for none
-  std::vector<Corner> corners_;  ///< by vertex, surface and side
-  std::vector<Range> groups_;    ///< per point: of corners_
+  std::vector<Corner> corners_;  ///< by vertex, surface and side; kept for links
+  std::vector<Range> groups_;    ///< per point: of corners_; kept for links
   std::vector<Point> points_;
   std::vector<std::array<int32_t, 3>> pointsOfTriangle_;
 };

@@ -32,12 +32,22 @@ template <class Hash, class Equal>
 std::vector<int32_t> FirstEqual(int64_t count, const Hash& hash, const Equal& equal) {
   size_t slots = 16;
   while (slots < 2 * size_t(count)) slots *= 2;
-  std::vector<int32_t> table(slots, -1), first(static_cast<size_t>(count));
+  struct Slot {
+    int32_t first = -1;
+    uint32_t high = 0;  ///< half of the hash: most that differ are told by it
+  };
+  std::vector<Slot> table(slots);
+  std::vector<int32_t> first(static_cast<size_t>(count));
   for (int64_t i = 0; i < count; ++i) {
-    size_t slot = size_t(hash(i)) & (slots - 1);
-    while (table[slot] >= 0 && !equal(i, table[slot])) slot = (slot + 1) & (slots - 1);
-    if (table[slot] < 0) table[slot] = int32_t(i);
-    first[size_t(i)] = table[slot];
+    const uint64_t bits = hash(i);
+    const uint32_t high = uint32_t(bits >> 32);
+    size_t place = size_t(bits) & (slots - 1);
+    while (table[place].first >= 0 &&
+           !(table[place].high == high && equal(i, table[place].first))) {
+      place = (place + 1) & (slots - 1);
+    }
+    if (table[place].first < 0) table[place] = {int32_t(i), high};
+    first[size_t(i)] = table[place].first;
   }
   return first;
 }

@@ -19,57 +19,64 @@ void Keep(const std::vector<uint8_t>& keep, std::vector<T>* values) {
   values->resize(kept);
 }
 
-/// A face as the file has it: a polygon's triangles, or a single triangle.
-struct Polygon {
-  size_t begin, end;              ///< faces
-  size_t cornerBegin, cornerEnd;  ///< its positions, sorted, each once, in the list of all
-  Vec3d vectorArea;               ///< of its outline, whichever way it was cut into triangles
+/// What the outline of a polygon is told by.
+struct Outline {
+  std::vector<int32_t> corners;  ///< its positions, sorted, each once
+  Vec3d vectorArea;              ///< whichever way it was cut into triangles
   double area = 0;
 };
 
-struct Polygons {
-  std::vector<Polygon> list;
-  std::vector<int32_t> corners;
-};
-
-/// The triangles of one source cell, or each triangle by itself.
-Polygons CollectPolygons(const TriangleMesh& mesh, bool bySourceCell) {
-  const std::vector<int32_t> positionId = PositionIds(mesh);
-  Polygons polygons;
-  for (size_t begin = 0, end = 0; begin < mesh.triangles.size(); begin = end) {
-    end = begin + 1;
-    while (bySourceCell && end < mesh.triangles.size() &&
-           mesh.sourceCellId[end] == mesh.sourceCellId[begin]) {
-      ++end;
+/// Faces as the file has them: the triangles of one source cell, or each triangle by itself.
+class Polygons {
+ public:
+  Polygons(const TriangleMesh& mesh, bool bySourceCell)
+      : mesh_(mesh), positionId_(PositionIds(mesh)) {
+    for (size_t face = 0; face < mesh.triangles.size(); ++face) {
+      const bool isNext =
+          bySourceCell && face > 0 && mesh.sourceCellId[face] == mesh.sourceCellId[face - 1];
+      if (!isNext) begin_.push_back(int32_t(face));
     }
-    Polygon polygon{begin, end, polygons.corners.size(), 0, {}};
-    for (size_t face = begin; face < end; ++face) {
-      const Vec3d p(mesh.Corner(int64_t(face), 0));
-      const Vec3d area = Cross(Vec3d(mesh.Corner(int64_t(face), 1)) - p,
-                               Vec3d(mesh.Corner(int64_t(face), 2)) - p) *
+    begin_.push_back(int32_t(mesh.triangles.size()));
+  }
+
+  size_t Size() const { return begin_.size() - 1; }
+  /// Its faces.
+  size_t Begin(size_t polygon) const { return size_t(begin_[polygon]); }
+  size_t End(size_t polygon) const { return size_t(begin_[polygon + 1]); }
+
+  void GetOutline(size_t polygon, Outline* outline) const {
+    outline->corners.clear();
+    outline->vectorArea = Vec3d();
+    outline->area = 0;
+    for (size_t face = this->Begin(polygon); face < this->End(polygon); ++face) {
+      const Vec3d p(mesh_.Corner(int64_t(face), 0));
+      const Vec3d area = Cross(Vec3d(mesh_.Corner(int64_t(face), 1)) - p,
+                               Vec3d(mesh_.Corner(int64_t(face), 2)) - p) *
                          0.5;
-      polygon.vectorArea += area;
-      polygon.area += Length(area);
-      for (const int32_t point : mesh.triangles[face]) {
-        polygons.corners.push_back(int32_t(positionId[size_t(point)]));
+      outline->vectorArea += area;
+      outline->area += Length(area);
+      for (const int32_t point : mesh_.triangles[face]) {
+        outline->corners.push_back(int32_t(positionId_[size_t(point)]));
       }
     }
-    const auto first = polygons.corners.begin() + int64_t(polygon.cornerBegin);
-    std::sort(first, polygons.corners.end());
-    polygons.corners.erase(std::unique(first, polygons.corners.end()), polygons.corners.end());
-    polygon.cornerEnd = polygons.corners.size();
-    polygons.list.push_back(polygon);
+    std::sort(outline->corners.begin(), outline->corners.end());
+    outline->corners.erase(std::unique(outline->corners.begin(), outline->corners.end()),
+                           outline->corners.end());
   }
-  return polygons;
-}
+  Vec3d VectorArea(size_t polygon) const {
+    Outline outline;
+    this->GetOutline(polygon, &outline);
+    return outline.vectorArea;
+  }
 
-/// The same positions and, up to the winding, the same vector area: the same outline.
-bool SameOutline(const Polygons& polygons, const Polygon& a, const Polygon& b) {
-  const int32_t* corners = polygons.corners.data();
-  if (!std::equal(corners + a.cornerBegin, corners + a.cornerEnd, corners + b.cornerBegin,
-                  corners + b.cornerEnd)) {
-    return false;
-  }
+ private:
+  const TriangleMesh& mesh_;
+  std::vector<int32_t> positionId_, begin_;
+};
+
+/// The same positions and, up to the winding, the same vector area.
+bool SameOutline(const Outline& a, const Outline& b) {
+  if (a.corners != b.corners) return false;
   // Both are sums over the same coordinates in double; far more than their rounding, far less than
   // a corner.
   const double tolerance = 1e-6 * std::max(a.area, b.area);
@@ -89,53 +96,56 @@ uint8_t EmissionSeenFrom(const TriangleMesh& mesh, size_t face, bool sameWinding
 
 /// For each polygon the first with the same outline.
 std::vector<int32_t> FirstCopies(const Polygons& polygons) {
+  Outline a, b;
   return FirstEqual(
-      int64_t(polygons.list.size()),
+      int64_t(polygons.Size()),
       [&](int64_t i) {
-        const Polygon& polygon = polygons.list[size_t(i)];
+        polygons.GetOutline(size_t(i), &a);
         uint64_t hash = 0;
-        for (size_t k = polygon.cornerBegin; k < polygon.cornerEnd; ++k) {
-          hash = HashBits(hash, uint64_t(polygons.corners[k]));
-        }
+        for (const int32_t corner : a.corners) hash = HashBits(hash, uint64_t(corner));
         return hash;
       },
       [&](int64_t i, int64_t j) {
-        return SameOutline(polygons, polygons.list[size_t(i)], polygons.list[size_t(j)]);
+        polygons.GetOutline(size_t(i), &a);
+        polygons.GetOutline(size_t(j), &b);
+        return SameOutline(a, b);
       });
 }
 
 RepeatCounts RemoveRepeatedPolygons(const Polygons& polygons, TriangleMesh* mesh) {
   // The first copy that emits stays, else the first.
-  const std::vector<Polygon>& list = polygons.list;
   const std::vector<int32_t> first = FirstCopies(polygons);
   std::vector<int32_t> staying(first);
-  for (size_t i = 0; i < list.size(); ++i) {
+  for (size_t i = 0; i < polygons.Size(); ++i) {
     int32_t& stays = staying[size_t(first[i])];
-    if (!Emits(*mesh, list[size_t(stays)].begin) && Emits(*mesh, list[i].begin)) stays = int32_t(i);
+    const bool staysDark = !Emits(*mesh, polygons.Begin(size_t(stays)));
+    if (staysDark && Emits(*mesh, polygons.Begin(i))) stays = int32_t(i);
   }
 
   // What the other copies emit must not be lost.
   RepeatCounts counts;
-  std::vector<uint8_t> keep(mesh->triangles.size(), 1), otherSideKept(list.size(), 0);
-  for (size_t i = 0; i < list.size(); ++i) {
+  std::vector<uint8_t> keep(mesh->triangles.size(), 1), otherSideKept(polygons.Size(), 0);
+  for (size_t i = 0; i < polygons.Size(); ++i) {
     const size_t stays = size_t(staying[size_t(first[i])]);
-    const Polygon &copy = list[i], &kept = list[stays];
     if (i == stays) continue;
-    if (Emits(*mesh, copy.begin)) {
-      const bool sameWinding = Dot(copy.vectorArea, kept.vectorArea) > 0;
-      const uint8_t emission = EmissionSeenFrom(*mesh, copy.begin, sameWinding);
-      const bool otherSide = (emission & ~mesh->faceFlags[kept.begin]) != 0;
-      if (mesh->emittance[copy.begin] == mesh->emittance[kept.begin]) {
-        for (size_t face = kept.begin; face < kept.end; ++face) mesh->faceFlags[face] |= emission;
+    const size_t copy = polygons.Begin(i), kept = polygons.Begin(stays);
+    if (Emits(*mesh, copy)) {
+      const bool sameWinding = Dot(polygons.VectorArea(i), polygons.VectorArea(stays)) > 0;
+      const uint8_t emission = EmissionSeenFrom(*mesh, copy, sameWinding);
+      const bool otherSide = (emission & ~mesh->faceFlags[kept]) != 0;
+      if (mesh->emittance[copy] == mesh->emittance[kept]) {
+        for (size_t face = kept; face < polygons.End(stays); ++face) {
+          mesh->faceFlags[face] |= emission;
+        }
       } else if (otherSide && !otherSideKept[stays]) {
         otherSideKept[stays] = 1;
         continue;
       }
     }
-    for (size_t face = copy.begin; face < copy.end; ++face) {
+    for (size_t face = copy; face < polygons.End(i); ++face) {
       keep[face] = 0;
       ++counts.removed;
-      counts.otherMaterial += mesh->materialId[face] != mesh->materialId[kept.begin];
+      counts.otherMaterial += mesh->materialId[face] != mesh->materialId[kept];
     }
   }
   if (counts.removed > 0) KeepFaces(keep, mesh);
@@ -220,12 +230,10 @@ int64_t RemoveZeroAreaFaces(TriangleMesh* mesh) {
 RepeatCounts RemoveRepeatedFaces(TriangleMesh* mesh) {
   // Whole polygons first: two copies of one may be cut into triangles along other diagonals.
   RepeatCounts counts;
-  Polygons polygons = CollectPolygons(*mesh, true);
-  if (polygons.list.size() < mesh->triangles.size()) {
-    counts = RemoveRepeatedPolygons(polygons, mesh);
-    polygons = CollectPolygons(*mesh, false);
-  }
-  const RepeatCounts single = RemoveRepeatedPolygons(polygons, mesh);
+  const Polygons polygons(*mesh, true);
+  if (polygons.Size() == mesh->triangles.size()) return RemoveRepeatedPolygons(polygons, mesh);
+  counts = RemoveRepeatedPolygons(polygons, mesh);
+  const RepeatCounts single = RemoveRepeatedPolygons(Polygons(*mesh, false), mesh);
   counts.removed += single.removed;
   counts.otherMaterial += single.otherMaterial;
   return counts;

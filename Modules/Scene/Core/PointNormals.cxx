@@ -1,5 +1,9 @@
 #include "Scene/Core/PointNormals.h"
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "Common/Core/DisjointSets.h"
 #include "Common/Core/Parallel.h"
 #include "Scene/Core/FirstEqual.h"
@@ -23,38 +27,119 @@ double CornerAngle(const TriangleMesh& mesh, int64_t face, int corner) {
   return std::atan2(Length(Cross(u, v)), Dot(u, v));
 }
 
-/// Joins the corners at both ends of every edge that is bent by at most the feature angle.
-DisjointSets GroupCorners(const TriangleMesh& mesh, const MeshTopology& topology,
-                          const std::vector<Vec3d>& faceNormals, double featureAngle) {
+/// Per half-edge: 1 where its edge is bent by at most the feature angle; told at the lower of the
+/// two that meet there.
+std::vector<uint8_t> SmoothEdges(const TriangleMesh& mesh, const MeshTopology& topology,
+                                 double featureAngle) {
   // A little slack, so that an edge of exactly the feature angle counts as smooth.
   const double cosine = std::cos(featureAngle * kPi / 180) - 1e-9;
-  DisjointSets groups(3 * mesh.triangles.size());
-  for (int32_t edge = 0; edge < int32_t(topology.neighbor.size()); ++edge) {
+  std::vector<uint8_t> smooth(topology.neighbor.size(), 0);
+  ParallelForEach(mesh.FaceCount(), kGrain, [&](int64_t face) {
+    const Vec3d normal = UnitNormal(mesh, face);
+    for (size_t edge = size_t(3 * face); edge < size_t(3 * face + 3); ++edge) {
+      const int32_t across = topology.neighbor[edge];
+      if (across < int32_t(edge)) continue;
+      const int64_t other = across / 3;
+      if (topology.against[size_t(face)] != topology.against[size_t(other)]) continue;
+      smooth[edge] = Dot(normal, UnitNormal(mesh, other)) >= cosine;
+    }
+  });
+  return smooth;
+}
+
+/// Corners whose faces are smooth about their point.
+struct CornerGroups {
+  std::vector<int32_t> ofCorner;  ///< in the order of their first corners
+  std::vector<Vec3d> normal;      ///< per group: mean of its faces, weighted by angle
+};
+
+/// Joins the corners at both ends of every smooth edge.
+CornerGroups GroupCorners(const MeshTopology& topology, const std::vector<uint8_t>& smooth) {
+  DisjointSets sets(smooth.size());
+  for (int32_t edge = 0; edge < int32_t(smooth.size()); ++edge) {
+    if (!smooth[size_t(edge)]) continue;
     const int32_t across = topology.neighbor[size_t(edge)];
-    if (across < edge) continue;
-    const size_t face = size_t(edge / 3), other = size_t(across / 3);
-    if (topology.against[face] != topology.against[other]) continue;
-    if (Dot(faceNormals[face], faceNormals[other]) < cosine) continue;
     const auto end = [](int32_t e) { return e % 3 == 2 ? e - 2 : e + 1; };
-    groups.Join(edge, end(across));
-    groups.Join(end(edge), across);
+    sets.Join(edge, end(across));
+    sets.Join(end(edge), across);
   }
+  CornerGroups groups;
+  groups.ofCorner.resize(smooth.size());
+  int32_t count = 0;
+  for (int32_t corner = 0; corner < int32_t(smooth.size()); ++corner) {
+    const int32_t first = sets.Find(corner);
+    groups.ofCorner[size_t(corner)] = first == corner ? count++ : groups.ofCorner[size_t(first)];
+  }
+  groups.normal.resize(size_t(count));
   return groups;
 }
 
-/// Angle-weighted mean normal of every group, at its root; in the order of the corners.
-std::vector<Vec3d> GroupNormals(const TriangleMesh& mesh, const std::vector<Vec3d>& faceNormals,
-                                const std::vector<int32_t>& root) {
-  std::vector<Vec3d> weighted(root.size()), sum(root.size());
-  ParallelForEach(int64_t(root.size()), kGrain, [&](int64_t corner) {
-    const int64_t face = corner / 3;
-    weighted[size_t(corner)] = faceNormals[size_t(face)] * CornerAngle(mesh, face, int(corner % 3));
-  });
-  for (size_t corner = 0; corner < root.size(); ++corner) {
-    sum[size_t(root[corner])] += weighted[corner];
+/// Angle-weighted mean normal of every group; in the order of the corners.
+void AddNormals(const TriangleMesh& mesh, CornerGroups* groups) {
+  constexpr int64_t kBlock = 1 << 16;  // faces
+  std::vector<std::array<Vec3d, 3>> weighted(size_t(std::min(kBlock, mesh.FaceCount())));
+  for (int64_t begin = 0; begin < mesh.FaceCount(); begin += kBlock) {
+    const int64_t count = std::min(kBlock, mesh.FaceCount() - begin);
+    ParallelForEach(count, kGrain, [&](int64_t i) {
+      const Vec3d normal = UnitNormal(mesh, begin + i);
+      for (int c = 0; c < 3; ++c) {
+        weighted[size_t(i)][size_t(c)] = normal * CornerAngle(mesh, begin + i, c);
+      }
+    });
+    for (int64_t corner = 0; corner < 3 * count; ++corner) {
+      groups->normal[size_t(groups->ofCorner[size_t(3 * begin + corner)])] +=
+          weighted[size_t(corner / 3)][size_t(corner % 3)];
+    }
   }
-  return sum;
 }
+
+/// For each corner the first of its group and point.
+class FirstCorners {
+ public:
+  FirstCorners(const TriangleMesh& mesh, const CornerGroups& groups)
+      : mesh_(mesh), groups_(groups), ofGroup_(groups.normal.size(), -1) {
+    // Most groups are about one point: the corners of other points are few.
+    std::vector<int32_t> others;
+    for (int32_t corner = 0; corner < int32_t(groups.ofCorner.size()); ++corner) {
+      int32_t& first = ofGroup_[this->Group(corner)];
+      if (first < 0) first = corner;
+      if (this->Point(first) != this->Point(corner)) others.push_back(corner);
+    }
+    const std::vector<int32_t> first = FirstEqual(
+        int64_t(others.size()),
+        [&](int64_t i) {
+          const int32_t corner = others[size_t(i)];
+          return HashBits(uint64_t(this->Point(corner)) << 32 | uint32_t(this->Group(corner)));
+        },
+        [&](int64_t i, int64_t j) {
+          const int32_t a = others[size_t(i)], b = others[size_t(j)];
+          return this->Point(a) == this->Point(b) && this->Group(a) == this->Group(b);
+        });
+    for (size_t i = 0; i < others.size(); ++i) {
+      firstOfOther_.emplace_back(others[i], others[size_t(first[i])]);
+    }
+  }
+
+  /// Corners are asked for in ascending order; those asked so far may have other points by now.
+  int32_t Next(int32_t corner) {
+    if (next_ == firstOfOther_.size() || firstOfOther_[next_].first != corner) {
+      return ofGroup_[this->Group(corner)];
+    }
+    return firstOfOther_[next_++].second;
+  }
+
+ private:
+  size_t Group(int32_t corner) const { return size_t(groups_.ofCorner[size_t(corner)]); }
+  int32_t Point(int32_t corner) const {
+    return mesh_.triangles[size_t(corner / 3)][size_t(corner % 3)];
+  }
+
+  const TriangleMesh& mesh_;
+  const CornerGroups& groups_;
+  std::vector<int32_t> ofGroup_;                           ///< of the group's first point
+  std::vector<std::pair<int32_t, int32_t>> firstOfOther_;  ///< corners of other points, ascending
+  size_t next_ = 0;
+};
 
 /// The normal that a group delivers: its mean, else that of its first face, else straight up (a
 /// point all of whose faces have no area).
@@ -99,34 +184,20 @@ PointNormalCounts CompletePointNormals(double featureAngle, TriangleMesh* mesh,
   if (std::find(missing.begin(), missing.end(), 1) == missing.end()) return {};
 
   // Smooth groups of corners, and the normal of each.
-  std::vector<Vec3d> faceNormals(mesh->triangles.size());
-  ParallelForEach(mesh->FaceCount(), kGrain,
-                  [&](int64_t face) { faceNormals[size_t(face)] = UnitNormal(*mesh, face); });
-  DisjointSets groups = GroupCorners(*mesh, *topology, faceNormals, featureAngle);
-  std::vector<int32_t> root(3 * mesh->triangles.size()), point(root.size());
-  for (size_t corner = 0; corner < root.size(); ++corner) {
-    root[corner] = groups.Find(int32_t(corner));
-    point[corner] = mesh->triangles[corner / 3][corner % 3];
-  }
-  const std::vector<Vec3d> groupNormals = GroupNormals(*mesh, faceNormals, root);
+  CornerGroups groups = GroupCorners(*topology, SmoothEdges(*mesh, *topology, featureAngle));
+  AddNormals(*mesh, &groups);
 
   // A point serves its first group; every other group at it gets a copy.
   PointNormalCounts counts;
   int64_t& count = hadNormals ? counts.repaired : counts.made;
-  const std::vector<int32_t> first = FirstEqual(
-      int64_t(root.size()),
-      [&](int64_t i) {
-        return HashBits(uint64_t(point[size_t(i)]) << 32 | uint32_t(root[size_t(i)]));
-      },
-      [&](int64_t i, int64_t j) {
-        return point[size_t(i)] == point[size_t(j)] && root[size_t(i)] == root[size_t(j)];
-      });
-  for (size_t corner = 0; corner < root.size(); ++corner) {
-    const int32_t original = point[corner];
+  FirstCorners firstCorners(*mesh, groups);
+  for (int32_t corner = 0; corner < int32_t(groups.ofCorner.size()); ++corner) {
+    const int32_t first = firstCorners.Next(corner);
+    int32_t& serving = mesh->triangles[size_t(corner / 3)][size_t(corner % 3)];
+    const int32_t original = serving;
     if (!missing[size_t(original)]) continue;
-    int32_t& serving = mesh->triangles[corner / 3][corner % 3];
-    if (size_t(first[corner]) != corner) {
-      serving = mesh->triangles[size_t(first[corner] / 3)][size_t(first[corner] % 3)];
+    if (first != corner) {
+      serving = mesh->triangles[size_t(first / 3)][size_t(first % 3)];
       continue;
     }
     if (missing[size_t(original)] == 2) {
@@ -134,8 +205,8 @@ PointNormalCounts CompletePointNormals(double featureAngle, TriangleMesh* mesh,
       CopyPoint(original, mesh, topology);
     }
     missing[size_t(original)] = 2;
-    mesh->normals[size_t(serving)] =
-        UsableNormal(groupNormals[size_t(root[corner])], faceNormals[corner / 3]);
+    mesh->normals[size_t(serving)] = UsableNormal(
+        groups.normal[size_t(groups.ofCorner[size_t(corner)])], UnitNormal(*mesh, corner / 3));
     ++count;
   }
 

@@ -198,7 +198,7 @@ Scene AssembleScene(SceneAssembly assembly, const CleaningOptions& options, Clea
   scene.lights = std::move(assembly.lights);
   scene.camera = assembly.camera;
   const PartRanges ranges = RangesOfParts(meshes, scene.parts);
-  scene.mesh = PlaceParts(meshes, scene.parts, ranges);
+  scene.mesh = PlaceParts(scene.parts, ranges, &meshes);
 
   // What can only be told in the world.
   step(0.9, "Placing");

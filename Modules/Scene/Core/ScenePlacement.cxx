@@ -1,5 +1,6 @@
 #include "Scene/Core/ScenePlacement.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "Common/Core/Error.h"
@@ -39,45 +40,63 @@ class Placement {
   bool mirrors_;
 };
 
-void Resize(const PartRanges& ranges, bool uvs, TriangleMesh* world) {
-  const size_t faces = size_t(ranges.faceBegin.back()), points = size_t(ranges.pointBegin.back());
-  world->positions.resize(points);
-  world->normals.resize(points);
-  if (uvs) world->uvs.resize(points);
-  world->triangles.resize(faces);
-  world->reflectance.resize(faces);
-  world->emittance.resize(faces);
-  world->faceFlags.resize(faces);
-  world->materialId.resize(faces);
-  world->partId.resize(faces);
-  world->sourceCellId.resize(faces);
-}
-
-void PlacePoints(const TriangleMesh& object, const Placement& placement, int64_t begin,
-                 TriangleMesh* world) {
-  ParallelForEach(object.PointCount(), kGrain, [&](int64_t i) {
-    const size_t from = size_t(i), to = size_t(begin + i);
-    world->positions[to] = placement.Point(object.positions[from]);
-    world->normals[to] = placement.Normal(object.normals[from]);
-    if (!object.uvs.empty()) world->uvs[to] = Vec2f(object.uvs[from]);
+/// Places an array of the parts' meshes in the world. `place(part, value)` is the value there.
+template <class T, class Place>
+void PlaceArray(std::vector<T> TriangleMesh::*array, const std::vector<Part>& parts,
+                const std::vector<int64_t>& begin, const Place& place,
+                const std::vector<CleanedMesh>& meshes, TriangleMesh* world) {
+  std::vector<T>& placed = world->*array;
+  placed.resize(size_t(begin.back()));
+  ParallelForEach(int64_t(parts.size()), 1, [&](int64_t part) {
+    const std::vector<T>& values = meshes[size_t(parts[size_t(part)].meshId)].mesh.*array;
+    T* const to = placed.data() + begin[size_t(part)];
+    ParallelForEach(int64_t(values.size()), kGrain,
+                    [&](int64_t i) { to[i] = place(size_t(part), values[size_t(i)]); });
   });
 }
 
-void PlaceFaces(const TriangleMesh& object, bool mirrors, int32_t part, int64_t faceBegin,
-                int64_t pointBegin, TriangleMesh* world) {
-  ParallelForEach(object.FaceCount(), kGrain, [&](int64_t i) {
-    const size_t from = size_t(i), to = size_t(faceBegin + i);
-    std::array<int32_t, 3> corners = object.triangles[from];
-    for (int32_t& corner : corners) corner += int32_t(pointBegin);
-    if (mirrors) std::swap(corners[1], corners[2]);
-    world->triangles[to] = corners;
-    world->reflectance[to] = Spectrum(object.reflectance[from]);
-    world->emittance[to] = Spectrum(object.emittance[from]);
-    world->faceFlags[to] = object.faceFlags[from];
-    world->materialId[to] = object.materialId[from];
-    world->partId[to] = part;
-    world->sourceCellId[to] = object.sourceCellId[from];
+/// The same, and frees it in the meshes: two of a kind are all that there ever is.
+template <class T, class Place>
+void MoveArray(std::vector<T> TriangleMesh::*array, const std::vector<Part>& parts,
+               const std::vector<int64_t>& begin, const Place& place,
+               std::vector<CleanedMesh>* meshes, TriangleMesh* world) {
+  PlaceArray(array, parts, begin, place, *meshes, world);
+  for (CleanedMesh& cleaned : *meshes) cleaned.mesh.*array = std::vector<T>();
+}
+
+void PlacePoints(const std::vector<Part>& parts, const std::vector<Placement>& placements,
+                 const PartRanges& ranges, std::vector<CleanedMesh>* meshes, TriangleMesh* world) {
+  const auto move = [&](auto array, const auto& value) {
+    MoveArray(array, parts, ranges.pointBegin, value, meshes, world);
+  };
+  move(&TriangleMesh::positions,
+       [&](size_t part, const Vec3f& p) { return placements[part].Point(p); });
+  move(&TriangleMesh::normals,
+       [&](size_t part, const Vec3f& n) { return placements[part].Normal(n); });
+  const bool uvs = std::any_of(parts.begin(), parts.end(), [&](const Part& part) {
+    return !(*meshes)[size_t(part.meshId)].mesh.uvs.empty();
   });
+  if (uvs) move(&TriangleMesh::uvs, [](size_t, const Vec2f& uv) { return Vec2f(uv); });
+}
+
+void PlaceFaces(const std::vector<Part>& parts, const std::vector<Placement>& placements,
+                const PartRanges& ranges, std::vector<CleanedMesh>* meshes, TriangleMesh* world) {
+  const auto move = [&](auto array, const auto& value) {
+    MoveArray(array, parts, ranges.faceBegin, value, meshes, world);
+  };
+  const auto stays = [](size_t, const auto& value) { return value; };
+  const auto placeCorners = [&](size_t part, std::array<int32_t, 3> corners) {
+    for (int32_t& corner : corners) corner += int32_t(ranges.pointBegin[part]);
+    if (placements[part].Mirrors()) std::swap(corners[1], corners[2]);
+    return corners;
+  };
+  PlaceArray(&TriangleMesh::triangles, parts, ranges.faceBegin, placeCorners, *meshes, world);
+  move(&TriangleMesh::reflectance, stays);
+  move(&TriangleMesh::emittance, stays);
+  move(&TriangleMesh::faceFlags, stays);
+  move(&TriangleMesh::materialId, stays);
+  move(&TriangleMesh::partId, [](size_t part, int32_t) { return int32_t(part); });
+  move(&TriangleMesh::sourceCellId, stays);
 }
 
 /// A flattening matrix leaves a normal no length; it takes that of a face there.
@@ -106,28 +125,19 @@ PartRanges RangesOfParts(const std::vector<CleanedMesh>& meshes, const std::vect
   return ranges;
 }
 
-TriangleMesh PlaceParts(const std::vector<CleanedMesh>& meshes, const std::vector<Part>& parts,
-                        const PartRanges& ranges) {
+TriangleMesh PlaceParts(const std::vector<Part>& parts, const PartRanges& ranges,
+                        std::vector<CleanedMesh>* meshes) {
   constexpr int64_t kMost = std::numeric_limits<int32_t>::max();
   if (3 * ranges.faceBegin.back() > kMost || ranges.pointBegin.back() > kMost) {
     throw Error("The scene has " + std::to_string(ranges.faceBegin.back()) +
                 " triangles with all instances; at most " + std::to_string(kMost / 3) +
                 " can be solved.");
   }
-  bool uvs = false;
-  for (const Part& part : parts) uvs |= !meshes[size_t(part.meshId)].mesh.uvs.empty();
-
+  std::vector<Placement> placements;
+  for (const Part& part : parts) placements.emplace_back(part.objectToWorld);
   TriangleMesh world;
-  Resize(ranges, uvs, &world);
-  ParallelForEach(int64_t(parts.size()), 1, [&](int64_t i) {
-    const Part& part = parts[size_t(i)];
-    const TriangleMesh& object = meshes[size_t(part.meshId)].mesh;
-    const Placement placement(part.objectToWorld);
-    const int64_t pointBegin = ranges.pointBegin[size_t(i)];
-    PlacePoints(object, placement, pointBegin, &world);
-    PlaceFaces(object, placement.Mirrors(), int32_t(i), ranges.faceBegin[size_t(i)], pointBegin,
-               &world);
-  });
+  PlacePoints(parts, placements, ranges, meshes, &world);
+  PlaceFaces(parts, placements, ranges, meshes, &world);
   for (const Vec3f& position : world.positions) {
     if (!IsFinite(position)) {
       throw Error("A part's matrix takes a point out of the range of numbers; repair the input.");

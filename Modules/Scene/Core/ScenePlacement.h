@@ -23,7 +23,8 @@ PartRanges RangesOfParts(const std::vector<CleanedMesh>& meshes, const std::vect
 /// transpose. A matrix that mirrors swaps two corners of each face, so that a front stays the
 /// front. Emittance is exitance: no scale changes it. Points carry uvs where any mesh does. Throws
 /// Error where a position leaves the range of numbers or the scene has more than 2^31 / 3 faces.
-TriangleMesh PlaceParts(const std::vector<CleanedMesh>& meshes, const std::vector<Part>& parts,
-                        const PartRanges& ranges);
+/// What is placed is taken out of `meshes`, but for their triangles.
+TriangleMesh PlaceParts(const std::vector<Part>& parts, const PartRanges& ranges,
+                        std::vector<CleanedMesh>* meshes);
 
 }  // namespace lambert

@@ -11,8 +11,11 @@
 #include <assimp/Importer.hpp>
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <utility>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/MemoryCeiling.h"
 #include "Scene/Core/SceneReaderFiles.h"
 #include "Scene/Core/SceneReaderGltf.h"
 #include "Scene/Core/SceneReaderMeshes.h"
@@ -102,7 +105,7 @@ class FileReader {
   std::optional<GltfDocument> gltf_;
   ObjScan obj_;
   Assimp::Importer importer_;
-  const aiScene* scene_ = nullptr;
+  std::unique_ptr<aiScene> scene_;
   double metresPerUnit_ = 1;
 
   std::vector<SurfaceMaterial> materials_;
@@ -128,7 +131,7 @@ void FileReader::Prepare() {
     bytes_ = gltf_->IndexedBytes(context_);
   }
   if (extension_ == "obj") {
-    obj_ = ScanObj(path_, bytes_);
+    obj_ = ScanObj(path_, std::move(bytes_));
     bytes_ = std::move(obj_.text);
     for (const std::string& library : obj_.missingMtl) {
       context_.Warn("The material library \"" + library + "\" of \"" + path_ +
@@ -140,13 +143,15 @@ void FileReader::Prepare() {
 void FileReader::Import() {
   // No step of the importer joins, drops or reorders; polygons stay polygons.
   importer_.SetIOHandler(new PreparedFile(path_, bytes_, &context_.assembly.report.companions));
-  scene_ = importer_.ReadFile(path_, 0);
+  importer_.ReadFile(path_, 0);
+  const std::string cause = importer_.GetErrorString();
+  scene_.reset(importer_.GetOrphanedScene());
   if (!scene_ || !scene_->mRootNode) {
-    const std::string cause = importer_.GetErrorString();
     throw Error("The file \"" + path_ + "\" cannot be read" +
                 (cause.empty() ? "" : " (" + cause + ")") +
                 "; check that it is whole and of a known format.");
   }
+  std::string().swap(bytes_);
 }
 
 void FileReader::DeclareUnit() {
@@ -246,13 +251,14 @@ void FileReader::AddParts(const aiNode& node, const Matrix4& toWorld) {
   if (camera && !assembly.camera) assembly.camera = camera;
 }
 
-/// Reads the mesh where it is met first; nodes that share it share the row.
+/// Reads the mesh where it is met first, and frees the importer's; nodes that share it share the
+/// row.
 int32_t FileReader::MeshRow(unsigned index) {
   const auto known = meshRows_.find(index);
   if (known != meshRows_.end()) return known->second;
-  const aiMesh& source = *scene_->mMeshes[index];
-  CheckAnnounced(source);
-  const size_t material = MaterialOf(source);
+  std::unique_ptr<aiMesh> source(std::exchange(scene_->mMeshes[index], nullptr));
+  CheckAnnounced(*source);
+  const size_t material = MaterialOf(*source);
   int32_t& row = materialRows_[material];
   if (row < 0) {
     WarnOfUnknown(materials_[material].name);
@@ -261,8 +267,8 @@ int32_t FileReader::MeshRow(unsigned index) {
 
   // STL stores the normals of facets, which say nothing of a point.
   const bool keepNormals = extension_ != "stl";
-  TriangleMesh mesh = ReadMesh(source, materials_[material], row, keepNormals, path_, context_,
-                               &materialUse_[material]);
+  TriangleMesh mesh = ReadMesh(source.get(), materials_[material], row, keepNormals, path_,
+                               context_, &materialUse_[material]);
   if (mesh.triangles.empty()) return meshRows_[index] = -1;
   context_.assembly.meshes.push_back(std::move(mesh));
   return meshRows_[index] = int32_t(context_.assembly.meshes.size()) - 1;
@@ -395,6 +401,7 @@ SceneAssembly ReadScene(const std::vector<std::string>& files, const SceneReader
                  "\" is missing or cannot be decoded; its factor counts alone.");
   }
   assembly.report.texturesMissing = int64_t(textures.Missing().size());
+  ReturnFreedMemory();  // Importers free small pieces by the million.
   Report(progress, 1, "Reading scene");
   return assembly;
 }

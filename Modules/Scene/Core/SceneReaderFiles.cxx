@@ -228,30 +228,39 @@ std::string MtlText(const std::string& path) {
 ObjScan ScanObj(const std::string& path, std::string text) {
   // What would hide lines from the importer: a byte order mark, line ends of old Macs.
   if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
+  if (!text.empty() && text.back() != '\n') text += '\n';
   std::string_view rest(text);
   if (rest.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
     rest.remove_prefix(kByteOrderMark.size());
   }
 
+  // Lines that stay as they are, in a row, up to one that changes.
   ObjScan scan;
-  scan.text.reserve(text.size() + text.size() / 64);
+  const char* kept = rest.data();
   for (int64_t number = 1; !rest.empty(); ++number) {
+    const char* const begin = rest.data();
     std::string_view line = NextLine(&rest);
     while (!line.empty() && IsBlank(line.front())) line.remove_prefix(1);  // Nor indentation.
     const bool vertex =
         line.size() > 2 && line[0] == 'v' && (IsBlank(line[1]) || line[1] == 't' || line[1] == 'n');
-    if (vertex && CheckVertexLine(line, path, number)) {
-      AppendUndotted(line, &scan.text);
-    } else {
-      scan.text += line;
+    const bool dotted = vertex && CheckVertexLine(line, path, number);
+    if (dotted || line.data() != begin) {
+      scan.text.append(kept, size_t(begin - kept));
+      dotted ? AppendUndotted(line, &scan.text) : void(scan.text += line);
+      scan.text += '\n';
+      kept = rest.data();
     }
-    scan.text += '\n';
     std::string_view words(line);
     if (line.substr(0, 6) == "mtllib" && NextWord(&words) == "mtllib") {
       const std::string name(Trim(words));
       const fs::path library = fs::path(path).parent_path() / name;
       if (!ScanMtl(library, &scan.materials)) scan.missingMtl.push_back(name);
     }
+  }
+  if (kept == text.data()) {
+    scan.text = std::move(text);
+  } else {
+    scan.text.append(kept, size_t(text.data() + text.size() - kept));
   }
   return scan;
 }

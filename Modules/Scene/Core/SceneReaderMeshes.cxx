@@ -2,8 +2,11 @@
 
 #include <assimp/mesh.h>
 
+#include <algorithm>
+
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
+#include "Scene/Core/MeshRepair.h"
 
 namespace lambert {
 
@@ -96,12 +99,14 @@ void ReadPoints(const aiMesh& source, bool keepNormals, const std::string& file,
     }
   }
   if (keepNormals && source.HasNormals()) {
+    mesh->normals.reserve(source.mNumVertices);
     for (unsigned point = 0; point < source.mNumVertices; ++point) {
       const Vec3f normal = ToVec3(source.mNormals[point]);
       mesh->normals.push_back(IsFinite(normal) ? Normalize(normal) : Vec3f());
     }
   }
   if (source.HasTextureCoords(0)) {
+    mesh->uvs.reserve(source.mNumVertices);
     for (unsigned point = 0; point < source.mNumVertices; ++point) {
       const aiVector3D& uv = source.mTextureCoords[0][point];
       mesh->uvs.push_back(std::isfinite(uv.x) && std::isfinite(uv.y) ? Vec2f(uv.x, uv.y) : Vec2f());
@@ -111,6 +116,8 @@ void ReadPoints(const aiMesh& source, bool keepNormals, const std::string& file,
 
 void ReadTriangles(const aiMesh& source, const std::string& file, ReadReport* report,
                    TriangleMesh* mesh) {
+  mesh->triangles.reserve(source.mNumFaces);
+  mesh->sourceCellId.reserve(source.mNumFaces);
   std::vector<Vec3f> corners;
   for (unsigned face = 0; face < source.mNumFaces; ++face) {
     const aiFace& polygon = source.mFaces[face];
@@ -179,13 +186,23 @@ struct FaceMaterial {
 class FaceMaterials {
  public:
   FaceMaterials(const aiMesh& source, const SurfaceMaterial& material, const ReadContext& context)
-      : source_(source), material_(material), context_(context) {}
+      : source_(source), material_(material), context_(context) {
+    if (!source.HasVertexColors(0) || !material.TakesVertexColours()) return;
+    const bool linear = material.vertexColours == VertexColourUse::Multiplies;
+    colours_.resize(source.mNumVertices);
+    ParallelForEach(int64_t(colours_.size()), 4096, [&](int64_t point) {
+      const aiColor4D& c = source.mColors[0][point];
+      colours_[size_t(point)] =
+          linear ? Spectrum(c.r, c.g, c.b)
+                 : Spectrum(LinearFromSrgb(c.r), LinearFromSrgb(c.g), LinearFromSrgb(c.b));
+    });
+  }
 
   FaceMaterial Evaluate(const std::array<int32_t, 3>& triangle) const {
     FaceMaterial face{material_.reflectance, material_.emittance, false};
     const TextureValue base = Mean(material_.base, triangle);
     face.reflectance = face.reflectance * base.colour;
-    if (source_.HasVertexColors(0)) ApplyVertexColours(triangle, &face.reflectance);
+    if (!colours_.empty()) ApplyVertexColours(triangle, &face.reflectance);
     if (context_.options.blackMetals) {
       const float metallic = material_.metallic * Mean(material_.metallicMap, triangle).colour.b;
       face.reflectance *= std::max(0.f, 1 - metallic);
@@ -217,21 +234,24 @@ class FaceMaterials {
   }
 
   void ApplyVertexColours(const std::array<int32_t, 3>& triangle, Spectrum* reflectance) const {
-    if (!material_.TakesVertexColours()) return;
     const bool linear = material_.vertexColours == VertexColourUse::Multiplies;
     Spectrum sum;
-    for (const int32_t point : triangle) {
-      const aiColor4D& c = source_.mColors[0][point];
-      sum += linear ? Spectrum(c.r, c.g, c.b)
-                    : Spectrum(LinearFromSrgb(c.r), LinearFromSrgb(c.g), LinearFromSrgb(c.b));
-    }
+    for (const int32_t point : triangle) sum += colours_[size_t(point)];
     *reflectance = linear ? *reflectance * (sum / 3) : sum / 3;
   }
 
   const aiMesh& source_;
   const SurfaceMaterial& material_;
   const ReadContext& context_;
+  std::vector<Spectrum> colours_;  ///< of the points, linear; empty where they do not count
 };
+
+/// Frees an array that the importer made.
+template <class T>
+void Free(T** array) {
+  delete[] * array;
+  *array = nullptr;
+}
 
 }  // namespace
 
@@ -263,46 +283,50 @@ std::vector<std::array<int32_t, 3>> TriangulatePolygon(const std::vector<Vec3f>&
   return EarClipper(std::move(flat)).Clip();
 }
 
-TriangleMesh ReadMesh(const aiMesh& source, const SurfaceMaterial& material, int32_t materialId,
+TriangleMesh ReadMesh(aiMesh* source, const SurfaceMaterial& material, int32_t materialId,
                       bool keepNormals, const std::string& file, const ReadContext& context,
                       MaterialUse* use) {
-  // Geometry.
-  TriangleMesh all;
+  // Geometry; what is read is freed in the source.
+  TriangleMesh mesh;
   ReadReport& report = context.assembly.report;
-  ReadPoints(source, keepNormals, file, &all);
-  ReadTriangles(source, file, &report, &all);
-  MendNormals(source, file, context, &all);
+  ReadPoints(*source, keepNormals, file, &mesh);
+  Free(&source->mVertices);
+  Free(&source->mNormals);
+  ReadTriangles(*source, file, &report, &mesh);
+  Free(&source->mFaces);
+  MendNormals(*source, file, context, &mesh);
 
   // A texture that vertex colours stand for or tint, or that lies on no coordinates, cannot be
   // looked up alone.
-  if ((source.HasVertexColors(0) && material.TakesVertexColours()) || !source.HasTextureCoords(0)) {
+  if ((source->HasVertexColors(0) && material.TakesVertexColours()) ||
+      !source->HasTextureCoords(0)) {
     context.assembly.materials[size_t(materialId)].baseTexture = nullptr;
   }
 
-  // Materials of the faces.
-  const FaceMaterials evaluator(source, material, context);
-  std::vector<FaceMaterial> faces(all.triangles.size());
-  ParallelForEach(all.FaceCount(), 1024, [&](int64_t face) {
-    faces[size_t(face)] = evaluator.Evaluate(all.triangles[size_t(face)]);
-  });
-
-  // Transparent faces neither block nor reflect: only the others are kept.
-  TriangleMesh mesh;
-  mesh.positions = std::move(all.positions);
-  mesh.normals = std::move(all.normals);
-  mesh.uvs = std::move(all.uvs);
+  // Materials of the faces. Transparent ones neither block nor reflect: only the others are kept.
+  const FaceMaterials evaluator(*source, material, context);
   const uint8_t emits = material.twoSidedEmitter ? kEmitsFront | kEmitsBack : kEmitsFront;
-  for (size_t face = 0; face < faces.size(); ++face) {
-    if (faces[face].transparent && !context.options.opaqueGlass) {
-      use->transparent = true;
-      ++report.transparentFaces;
-      continue;
-    }
-    mesh.triangles.push_back(all.triangles[face]);
-    mesh.sourceCellId.push_back(all.sourceCellId[face]);
-    mesh.reflectance.push_back(ClampReflectance(faces[face].reflectance, &use->clamped));
-    mesh.emittance.push_back(faces[face].emittance);
-    mesh.faceFlags.push_back(faces[face].emittance.IsBlack() ? 0 : emits);
+  const size_t count = mesh.triangles.size();
+  mesh.reflectance.resize(count);
+  mesh.emittance.resize(count);
+  mesh.faceFlags.resize(count);
+  std::vector<uint8_t> keep(count), clamped(count);
+  ParallelForEach(mesh.FaceCount(), 1024, [&](int64_t i) {
+    const size_t face = size_t(i);
+    const FaceMaterial evaluated = evaluator.Evaluate(mesh.triangles[face]);
+    bool over = false;
+    mesh.reflectance[face] = ClampReflectance(evaluated.reflectance, &over);
+    mesh.emittance[face] = evaluated.emittance;
+    mesh.faceFlags[face] = evaluated.emittance.IsBlack() ? 0 : emits;
+    keep[face] = !evaluated.transparent || context.options.opaqueGlass;
+    clamped[face] = over && keep[face];
+  });
+  use->clamped |= std::find(clamped.begin(), clamped.end(), 1) != clamped.end();
+  const int64_t transparent = std::count(keep.begin(), keep.end(), 0);
+  if (transparent > 0) {
+    use->transparent = true;
+    report.transparentFaces += transparent;
+    KeepFaces(keep, &mesh);
   }
   mesh.materialId.assign(mesh.triangles.size(), materialId);
   mesh.Complete();

@@ -22,10 +22,11 @@ struct MaterialUse {
   bool transparent = false;  ///< a face was left out
 };
 
-/// The mesh of one `source` in object space. `material` is row `materialId` of the scene's table;
-/// `keepNormals` is false where the file's normals are those of facets. Transparent triangles are
-/// left out and counted. Throws Error for points that are not finite and for indices beyond them.
-TriangleMesh ReadMesh(const aiMesh& source, const SurfaceMaterial& material, int32_t materialId,
+/// The mesh of one `source`, which is taken apart, in object space. `material` is row `materialId`
+/// of the scene's table; `keepNormals` is false where the file's normals are those of facets.
+/// Transparent triangles are left out and counted. Throws Error for points that are not finite and
+/// for indices beyond them.
+TriangleMesh ReadMesh(aiMesh* source, const SurfaceMaterial& material, int32_t materialId,
                       bool keepNormals, const std::string& file, const ReadContext& context,
                       MaterialUse* use);
 

@@ -53,10 +53,10 @@ RayScene::RayScene(const TriangleMesh& mesh) : implementation_(new Implementatio
   if (mesh.FaceCount() > 0) {
     void* points = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                            sizeof(Vec3f), mesh.positions.size());
-    void* faces = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                          3 * sizeof(int32_t), mesh.triangles.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               mesh.triangles.data(), 0, 3 * sizeof(int32_t),
+                               mesh.triangles.size());
     std::memcpy(points, mesh.positions.data(), mesh.positions.size() * sizeof(Vec3f));
-    std::memcpy(faces, mesh.triangles.data(), mesh.triangles.size() * 3 * sizeof(int32_t));
   }
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(self.scene, geometry);

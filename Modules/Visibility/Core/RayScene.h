@@ -24,6 +24,7 @@ struct RayHit {
 /// A bounding volume hierarchy over all faces of a mesh; both sides of a face block.
 class RayScene {
  public:
+  /// The triangles of the mesh have to stay where they are.
   explicit RayScene(const TriangleMesh& mesh);
   ~RayScene();
   RayScene(RayScene&&) noexcept;

@@ -59,22 +59,22 @@ void Check(const RadiositySolution& solution, int64_t faceCount) {
 }  // namespace
 
 SolutionLookup::SolutionLookup(const RadiositySolution& solution, int64_t faceCount)
-    : solution_(solution), roots_(size_t(faceCount) * 2, -1) {
+    : solution_(solution), begin_(size_t(faceCount) * 2 + 1, 0) {
+  // Triangles by face and side, counted.
   Check(solution, faceCount);
-  const auto key = [&](int32_t triangle) {
-    return Key(solution.inputFaceId[size_t(triangle)],
-               solution.side[size_t(triangle)] == kBack ? kBack : kFront);
+  const auto key = [&](size_t triangle) {
+    return Key(solution.inputFaceId[triangle], solution.side[triangle] == kBack ? kBack : kFront);
   };
-  order_.resize(solution.mesh.triangles.size());
-  std::iota(order_.begin(), order_.end(), 0);
-  std::stable_sort(order_.begin(), order_.end(),
-                   [&](int32_t a, int32_t b) { return key(a) < key(b); });
-  nodes_.reserve(order_.size());
-  const int32_t count = int32_t(order_.size());
-  for (int32_t begin = 0, end = 0; begin < count; begin = end) {
-    const size_t group = key(order_[size_t(begin)]);
-    while (end < count && key(order_[size_t(end)]) == group) ++end;
-    roots_[group] = Build(begin, end);
+  const size_t count = solution.mesh.triangles.size();
+  for (size_t triangle = 0; triangle < count; ++triangle) ++begin_[key(triangle)];
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  order_.resize(count);
+  for (size_t i = count; i > 0; --i) order_[size_t(--begin_[key(i - 1)])] = int32_t(i - 1);
+
+  // A tree over those that are many.
+  for (size_t group = 0; group + 1 < begin_.size(); ++group) {
+    const int32_t begin = begin_[group], end = begin_[group + 1];
+    if (end - begin > kLeafSize) roots_[group] = Build(begin, end);
   }
 }
 
@@ -112,39 +112,50 @@ int32_t SolutionLookup::Build(int32_t begin, int32_t end) {
 }
 
 SolutionLookup::Place SolutionLookup::Find(int64_t face, Side side, const Vec3f& position) const {
-  Place place;
-  const int32_t root = roots_[Key(face, side)];
-  if (root < 0) return place;
-  double nearest = std::numeric_limits<double>::infinity();
+  Nearest nearest{{}, std::numeric_limits<double>::infinity()};
+  const size_t key = Key(face, side);
+  const int32_t begin = begin_[key], end = begin_[key + 1];
+  if (end - begin > kLeafSize) {
+    Search(roots_.at(key), position, &nearest);
+  } else {
+    Compare(begin, end, position, &nearest);
+  }
+  return nearest.place;
+}
+
+void SolutionLookup::Search(int32_t root, const Vec3f& position, Nearest* nearest) const {
   std::array<int32_t, 64> stack;
   size_t height = 0;
   stack[height++] = root;
   while (height > 0) {
     const int32_t index = stack[--height];
     const Node& node = nodes_[size_t(index)];
-    if (SquaredDistance(node.bounds, position) >= nearest) continue;
-    if (node.second >= 0) {
-      const int32_t first = index + 1;
-      const bool firstIsNearer = SquaredDistance(nodes_[size_t(first)].bounds, position) <=
-                                 SquaredDistance(nodes_[size_t(node.second)].bounds, position);
-      stack[height++] = firstIsNearer ? node.second : first;
-      stack[height++] = firstIsNearer ? first : node.second;
+    if (SquaredDistance(node.bounds, position) >= nearest->distance) continue;
+    if (node.second < 0) {
+      Compare(node.begin, node.end, position, nearest);
       continue;
     }
-    for (int32_t i = node.begin; i < node.end; ++i) {
-      const int32_t triangle = order_[size_t(i)];
-      const TriangleMesh& mesh = solution_.mesh;
-      const Vec3d p(position), a(mesh.Corner(triangle, 0)), b(mesh.Corner(triangle, 1)),
-          c(mesh.Corner(triangle, 2));
-      const Vec3d weights = NearestWeights(p, a, b, c);
-      const double distance = LengthSquared(a * weights.x + b * weights.y + c * weights.z - p);
-      if (distance < nearest) {
-        nearest = distance;
-        place = {triangle, Vec3f(weights)};
-      }
-    }
+    const int32_t first = index + 1;
+    const bool firstIsNearer = SquaredDistance(nodes_[size_t(first)].bounds, position) <=
+                               SquaredDistance(nodes_[size_t(node.second)].bounds, position);
+    stack[height++] = firstIsNearer ? node.second : first;
+    stack[height++] = firstIsNearer ? first : node.second;
   }
-  return place;
+}
+
+void SolutionLookup::Compare(int32_t begin, int32_t end, const Vec3f& position,
+                             Nearest* nearest) const {
+  const TriangleMesh& mesh = solution_.mesh;
+  const Vec3d p(position);
+  for (int32_t i = begin; i < end; ++i) {
+    const int32_t triangle = order_[size_t(i)];
+    const Vec3d a(mesh.Corner(triangle, 0)), b(mesh.Corner(triangle, 1)),
+        c(mesh.Corner(triangle, 2));
+    const Vec3d weights = NearestWeights(p, a, b, c);
+    const double distance = LengthSquared(a * weights.x + b * weights.y + c * weights.z - p);
+    if (!(distance < nearest->distance)) continue;
+    *nearest = {{triangle, Vec3f(weights)}, distance};
+  }
 }
 
 Spectrum SolutionLookup::Interpolate(const Place& place,

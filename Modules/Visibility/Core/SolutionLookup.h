@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "Scene/Core/RadiositySolution.h"
@@ -23,7 +24,10 @@ class SolutionLookup {
   SolutionLookup(const RadiositySolution& solution, int64_t faceCount);
 
   /// True where the solution has triangles on that side.
-  bool Models(int64_t face, Side side) const { return roots_[Key(face, side)] >= 0; }
+  bool Models(int64_t face, Side side) const {
+    const size_t key = Key(face, side);
+    return begin_[key] < begin_[key + 1];
+  }
   /// The place nearest to `position` among the triangles of that side; a position just outside all
   /// of them by rounding finds the border.
   Place Find(int64_t face, Side side, const Vec3f& position) const;
@@ -39,12 +43,20 @@ class SolutionLookup {
     int32_t second = -1;  ///< index of the second child; the first follows its parent; -1: a leaf
   };
   static size_t Key(int64_t face, Side side) { return size_t(face) * 2 + size_t(side); }
+  /// The nearest place so far, and its squared distance, m2.
+  struct Nearest {
+    Place place;
+    double distance;
+  };
   int32_t Build(int32_t begin, int32_t end);
+  void Search(int32_t root, const Vec3f& position, Nearest* nearest) const;
+  void Compare(int32_t begin, int32_t end, const Vec3f& position, Nearest* nearest) const;
   Spectrum Interpolate(const Place& place, const std::vector<Spectrum>& values) const;
 
   const RadiositySolution& solution_;
   std::vector<int32_t> order_;  ///< refined triangles, those of one side of one face together
-  std::vector<int32_t> roots_;  ///< per face and side: its node; -1 where not modelled
+  std::vector<int32_t> begin_;  ///< per face and side, and one more: its first in order_
+  std::unordered_map<size_t, int32_t> roots_;  ///< by face and side, where those are many: its node
   std::vector<Node> nodes_;
 };
 

@@ -38,6 +38,24 @@ TEST(PointNormals, CubeOfAWideFeatureAngleIsRound) {
   }
 }
 
+TEST(PointNormals, PointsAtOnePlaceShareTheNormalOfTheirFaces) {
+  // A cube whose triangles share no point.
+  const TriangleMesh cube = MakeCube();
+  TriangleMesh soup = cube;
+  soup.positions.clear();
+  for (auto& triangle : soup.triangles) {
+    for (int32_t& point : triangle) {
+      soup.positions.push_back(cube.positions[size_t(point)]);
+      point = int32_t(soup.positions.size()) - 1;
+    }
+  }
+  EXPECT_EQ(Complete(91, &soup).made, 36);
+  ASSERT_EQ(soup.PointCount(), 36);
+  for (size_t point = 0; point < 36; ++point) {
+    EXPECT_LT(Length(soup.normals[point] - Normalize(soup.positions[point])), 1e-6f);
+  }
+}
+
 TEST(PointNormals, CylinderIsSmoothOnItsBarrelAndSharpAtItsRims) {
   TriangleMesh cylinder = MakeCylinder(90);
   Complete(30, &cylinder);

@@ -41,6 +41,19 @@ TEST_F(SceneReaderTest, ObjMaterials) {
   EXPECT_EQ(scene.report.unit, "m");
 }
 
+TEST_F(SceneReaderTest, ObjLinesThatAreChangedAmongThoseThatAreNot) {
+  const std::string file = Write("s.obj",
+                                 "v 0 0 0\nv 1 0 0\n  v 0 1 .5\nv 0 0 .25\n# .5\nv 2 0 0\n"
+                                 "f 1 2 3\n\tf 1 2 4\nf 1 5 3");
+  const SceneAssembly scene = ReadScene({file});
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  const TriangleMesh& mesh = scene.meshes[0];
+  ASSERT_EQ(mesh.FaceCount(), 3);
+  EXPECT_EQ(mesh.Corner(0, 2), Vec3f(0, 1, 0.5f));
+  EXPECT_EQ(mesh.Corner(1, 2), Vec3f(0, 0, 0.25f));
+  EXPECT_EQ(mesh.Corner(2, 1), Vec3f(2, 0, 0));
+}
+
 TEST_F(SceneReaderTest, Options) {
   Write("m.mtl", "newmtl lamp\nKe 1 1 1\nnewmtl glass\nKd .3 .3 .3\nd 0\n");
   const std::string file = Write("s.obj", std::string("mtllib m.mtl\n") + kTriangle +
