@@ -11,11 +11,14 @@
 #include "vtkSceneAdapter.h"
 #include "vtkTable.h"
 
+#include <optional>
+
 /// The steps before packing, and the time stamps of what they were made of.
 struct vtkRadiosityAtlas::Kept {
-  vtkMTimeType MeshTime = 0, TreeTime = 0;
+  vtkMTimeType MeshTime = 0, TreeTime = 0, SolutionTime = 0;
   lambert::Scene Scene;
   lambert::ClusterTree Tree;
+  std::optional<lambert::ShownSides> Shown;  ///< of a scene that is solved and has sheets
   lambert::ChartSet Charts;
 };
 
@@ -23,14 +26,15 @@ vtkStandardNewMacro(vtkRadiosityAtlas);
 
 vtkRadiosityAtlas::vtkRadiosityAtlas()
     : Options(new lambert::AtlasOptions), Last(std::make_unique<Kept>()) {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(3);
 }
 
 vtkRadiosityAtlas::~vtkRadiosityAtlas() = default;
 
 int vtkRadiosityAtlas::FillInputPortInformation(int port, vtkInformation* information) {
   if (port == 0) return this->Superclass::FillInputPortInformation(port, information);
-  information->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkTable");
+  information->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(),
+                   port == 1 ? "vtkTable" : "vtkPolyData");
   information->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   return 1;
 }
@@ -59,15 +63,39 @@ void vtkRadiosityAtlas::TakeIn(vtkPolyData* mesh, vtkTable* tree, const Progress
   ++this->NumberOfReadings;
 }
 
+void vtkRadiosityAtlas::FindSides(vtkPolyData* solution) {
+  const vtkMTimeType time = solution ? solution->GetMTime() : 0;
+  Kept& last = *this->Last;
+  if (last.SolutionTime == time) {
+    return;
+  }
+  last.SolutionTime = time;
+  std::optional<lambert::ShownSides> shown;
+  if (solution) {
+    shown =
+        lambert::ShowBothSides(last.Scene.mesh, last.Tree, lambert::SolutionFromPolyData(solution));
+  }
+  const bool areSame = shown ? last.Shown && shown->inputFace == last.Shown->inputFace &&
+                                   shown->side == last.Shown->side
+                             : !last.Shown;
+  if (!areSame) {
+    last.Shown = std::move(shown);
+    last.Charts = lambert::ChartSet();
+  }
+}
+
 int vtkRadiosityAtlas::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                    vtkInformationVector* outputs) {
   return lambert::RunCore(this, [&](const lambert::ProgressCallback& progress) {
     // Faces and charts, where they are not those of the last run.
     this->TakeIn(vtkPolyData::GetData(inputs[0]), vtkTable::GetData(inputs[1]), progress);
+    this->FindSides(vtkPolyData::GetData(inputs[2]));
     Kept& last = *this->Last;
-    const lambert::ChartOptions wanted = lambert::ChartOptionsOf(last.Tree, *this->Options);
+    const lambert::ClusterTree& tree = last.Shown ? last.Shown->tree : last.Tree;
+    const lambert::TriangleMesh& mesh = last.Shown ? last.Shown->mesh : last.Scene.mesh;
+    const lambert::ChartOptions wanted = lambert::ChartOptionsOf(tree, *this->Options);
     if (!last.Charts.IsOf(wanted)) {
-      last.Charts = lambert::CutIntoCharts(last.Scene.mesh, last.Tree, wanted, progress);
+      last.Charts = lambert::CutIntoCharts(mesh, tree, wanted, progress);
       ++this->NumberOfSegmentations;
     }
 
@@ -78,7 +106,10 @@ int vtkRadiosityAtlas::RequestData(vtkInformation*, vtkInformationVector** input
     this->NumberOfPages = atlas.pages;
     this->DeliveredTexelSize = atlas.texelSize;
     this->Utilisation = atlas.utilisation;
-    lambert::PolyDataFromAtlas(atlas, last.Scene, vtkPolyData::GetData(outputs));
+    lambert::Scene scene = last.Scene;
+    scene.mesh = mesh;
+    lambert::PolyDataFromAtlas(atlas, std::move(scene), vtkPolyData::GetData(outputs),
+                               last.Shown ? &*last.Shown : nullptr);
   });
 }
 

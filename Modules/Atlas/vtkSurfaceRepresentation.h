@@ -10,7 +10,8 @@
  * `PageId`. Output port 1: vtkMultiBlockDataSet, the pages, as vtkRadiosityLightMap has them.
  * Output port 2: vtkTable, a row a surface: `LightMapped` (0 or 1), `InputTriangles`,
  * `RefinedTriangles`, `Area` (m2), `Texels`, `MapError` (relative RMS of irradiance; both 0 outside
- * the light map).
+ * the light map), `Surface` and `Side`: a sheet that is lit on both sides has a row for each, and
+ * the faces of port 0 then have `Side`, too, and are wound towards it.
  */
 #ifndef vtkSurfaceRepresentation_h
 #define vtkSurfaceRepresentation_h

@@ -18,9 +18,10 @@ void WriteMesh(vtkPolyData* mesh, const std::string& fileName) {
 }
 }  // namespace
 
-void WriteLightMap(const RadiosityAtlas& atlas, const Scene& scene, const std::string& fileName) {
+void WriteLightMap(const RadiosityAtlas& atlas, const Scene& scene, const ShownSides* shown,
+                   const std::string& fileName) {
   vtkNew<vtkPolyData> mesh;
-  PolyDataFromAtlas(atlas, scene, mesh);
+  PolyDataFromAtlas(atlas, scene, mesh, shown);
   WriteMesh(mesh, fileName);
 }
 

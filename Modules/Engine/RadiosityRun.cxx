@@ -198,7 +198,8 @@ void RadiosityRun::LayFlat(const ProgressCallback& progress) {
   }
   Timer timer;
   this->atlas_ =
-      MakeRadiosityAtlas(this->scene_.mesh, this->tree_, *this->options_.atlas, progress);
+      MakeRadiosityAtlas(this->LaidScene().mesh, this->shown_ ? this->shown_->tree : this->tree_,
+                         *this->options_.atlas, progress);
   this->AddStage("atlas", timer.Seconds());
 }
 
@@ -220,16 +221,26 @@ void RadiosityRun::Represent(const ProgressCallback& progress) {
   this->AddStage("light map", timer.Seconds());
 }
 
+RadiositySolution RadiosityRun::SolutionAsShown() const {
+  return this->shown_ ? OntoShownSides(this->solution_, this->shown_->inputFace, this->shown_->side)
+                      : this->solution_;
+}
+
 void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
   if (this->options_.atlas &&
       (this->options_.introducedTriangles || !this->options_.representations.empty())) {
     this->Represent(progress);
     return;
   }
+  this->shown_ = ShowBothSides(this->scene_.mesh, this->tree_, this->solution_);
+  if (this->shown_) {
+    this->shownScene_ = this->scene_;
+    this->shownScene_.mesh = this->shown_->mesh;
+  }
   this->LayFlat(
       [&](double fraction, const char* stage) { return Report(progress, 0.7 * fraction, stage); });
   Timer timer;
-  this->lightMap_ = MakeLightMap(this->scene_.mesh, this->atlas_, this->solution_,
+  this->lightMap_ = MakeLightMap(this->LaidScene().mesh, this->atlas_, this->SolutionAsShown(),
                                  [&](double fraction, const char* stage) {
                                    return Report(progress, 0.7 + 0.3 * fraction, stage);
                                  });
@@ -237,8 +248,8 @@ void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
 }
 
 void RadiosityRun::DrawModel(const LitModelOptions& options, const std::optional<Camera>& camera) {
-  this->model_ = this->lightMap_ ? MakeLitModel(this->scene_, this->solution_, this->atlas_,
-                                                *this->lightMap_, options)
+  this->model_ = this->lightMap_ ? MakeLitModel(this->LaidScene(), this->SolutionAsShown(),
+                                                this->atlas_, *this->lightMap_, options)
                                  : MakeLitModel(this->scene_, this->solution_, options);
   if (camera) {
     this->model_->camera = *camera;
