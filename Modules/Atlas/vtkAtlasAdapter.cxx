@@ -135,6 +135,8 @@ void PolyDataFromRepresentedScene(const RepresentedScene& represented, Scene sce
   points->AddArray(ArrayFromTuples(Names::LightMapTCoords(), joined.lightMapCoords));
   points->AddArray(ArrayFromTuples(Names::Irradiance(), joined.irradiance));
   output->GetCellData()->AddArray(ArrayFromNumbers<vtkIntArray>(Names::PageId(), joined.page));
+  output->GetFieldData()->AddArray(ArrayFromNumbers<vtkIntArray>(
+      Names::AtlasPadding(), std::vector<int>{represented.atlas.padding}));
   if (!joined.side.empty()) {
     output->GetCellData()->AddArray(
         ArrayFromNumbers<vtkUnsignedCharArray>(Names::Side(), joined.side));

@@ -44,6 +44,7 @@ lambertOptionMacro(vtkRadiosityAtlas, PageSize, int, pageSize);
 lambertOptionMacro(vtkRadiosityAtlas, Pages, int, pages);
 lambertOptionMacro(vtkRadiosityAtlas, TexelSize, double, texelSize);
 lambertOptionMacro(vtkRadiosityAtlas, Padding, int, padding);
+lambertOptionMacro(vtkRadiosityAtlas, MipLevels, int, mipLevels);
 
 void vtkRadiosityAtlas::TakeIn(vtkPolyData* mesh, vtkTable* tree, const Progress& progress) {
   const bool hasTree = tree && tree->GetNumberOfRows() > 0;
@@ -120,6 +121,7 @@ void vtkRadiosityAtlas::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "Pages: " << this->GetPages() << "\n"
      << indent << "TexelSize: " << this->GetTexelSize() << "\n"
      << indent << "Padding: " << this->GetPadding() << "\n"
+     << indent << "MipLevels: " << this->GetMipLevels() << "\n"
      << indent << "NumberOfCharts: " << this->NumberOfCharts << "\n"
      << indent << "Utilisation: " << this->Utilisation << "\n";
 }

@@ -55,6 +55,11 @@ class LAMBERTATLAS_EXPORT vtkRadiosityAtlas : public vtkPolyDataAlgorithm {
   void SetPadding(int texels);
   int GetPadding();
   ///@}
+  ///@{ Levels of mip maps above the pages themselves that take in nothing of other charts, [0, 5];
+  /// default 0: padding of 1.5 * 2^levels texels at least.
+  void SetMipLevels(int levels);
+  int GetMipLevels();
+  ///@}
   /// The cluster tree of the input, as vtkFaceClustering's port 1 has it.
   void SetClusterConnection(vtkAlgorithmOutput* tree) { this->SetInputConnection(1, tree); }
 

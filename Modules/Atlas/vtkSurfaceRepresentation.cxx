@@ -53,6 +53,7 @@ lambertOptionMacro(vtkSurfaceRepresentation, PageSize, int, Atlas.pageSize);
 lambertOptionMacro(vtkSurfaceRepresentation, Pages, int, Atlas.pages);
 lambertOptionMacro(vtkSurfaceRepresentation, TexelSize, double, Atlas.texelSize);
 lambertOptionMacro(vtkSurfaceRepresentation, Padding, int, Atlas.padding);
+lambertOptionMacro(vtkSurfaceRepresentation, MipLevels, int, Atlas.mipLevels);
 
 void vtkSurfaceRepresentation::SetRepresentation(const std::string& material, int kind) {
   if (kind < AUTOMATIC || kind > LIGHT_MAP) {
@@ -122,6 +123,7 @@ void vtkSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "Pages: " << this->GetPages() << "\n"
      << indent << "TexelSize: " << this->GetTexelSize() << "\n"
      << indent << "Padding: " << this->GetPadding() << "\n"
+     << indent << "MipLevels: " << this->GetMipLevels() << "\n"
      << indent << "Stretch: " << this->GetStretch() << "\n";
   for (const auto& [material, kind] : this->Options->ByMaterial) {
     os << indent << "Representation of " << material << ": " << static_cast<int>(kind) << "\n";

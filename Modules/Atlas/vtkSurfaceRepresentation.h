@@ -51,6 +51,8 @@ class LAMBERTATLAS_EXPORT vtkSurfaceRepresentation : public vtkPolyDataAlgorithm
   double GetTexelSize();
   void SetPadding(int texels);
   int GetPadding();
+  void SetMipLevels(int levels);
+  int GetMipLevels();
   ///@}
 
   ///@{ The other inputs.

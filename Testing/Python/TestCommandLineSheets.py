@@ -111,6 +111,7 @@ on_wall = (np.abs(corners[:, :, 0] - WALL) < 1e-5).all(axis=1)
 assert towards_dim(corners[on_wall]).mean() == 0.5
 for other, triangles, _ in others:
     assert not (np.abs(other["POSITION"][triangles][:, :, 0] - WALL) < 1e-5).all(axis=1).any()
+assert model.document["samplers"][0] == {"magFilter": 9729, "minFilter": 9987, "wrapS": 33071, "wrapT": 33071}  # Trilinear
 png = temporary("rooms.png")
 with open(png, "wb") as file:
     file.write(model.view(model.document["images"][0]["bufferView"]))

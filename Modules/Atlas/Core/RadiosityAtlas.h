@@ -16,6 +16,9 @@ struct AtlasOptions {
   int pages = 1;         ///< the budget, [1, inf); counts where `texelSize` is 0
   double texelSize = 0;  ///< m, [0, inf), on up to 256 pages; 0: what fills the pages
   int padding = 2;       ///< texels between a chart and the edge of what it takes, [0, 64]
+  /// Levels of mip maps above the pages themselves whose lookups inside charts take in nothing of
+  /// others, [0, 5]: the padding is 1.5 * 2^levels texels at least.
+  int mipLevels = 0;
 };
 
 struct RadiosityAtlas {
@@ -34,6 +37,9 @@ struct RadiosityAtlas {
 RadiosityAtlas MakeRadiosityAtlas(const TriangleMesh& mesh, const ClusterTree& tree,
                                   const AtlasOptions& options = {},
                                   const ProgressCallback& progress = {});
+
+/// Texels between a chart and the edge of what it takes: as asked for, and for the mip maps.
+int PaddingOf(const AtlasOptions& options);
 
 ///@{ Its two steps, for those who repeat one of them. The charts that the options ask for, to be
 /// cut
