@@ -1,6 +1,7 @@
 #include "vtkRadiosityAtlas.h"
 
 #include "Atlas/Core/RadiosityAtlas.h"
+#include "Atlas/Core/TexelDensity.h"
 #include "Clustering/vtkClusterTreeAdapter.h"
 #include "vtkAtlasAdapter.h"
 #include "vtkCoreShell.h"
@@ -45,6 +46,19 @@ lambertOptionMacro(vtkRadiosityAtlas, Pages, int, pages);
 lambertOptionMacro(vtkRadiosityAtlas, TexelSize, double, texelSize);
 lambertOptionMacro(vtkRadiosityAtlas, Padding, int, padding);
 lambertOptionMacro(vtkRadiosityAtlas, MipLevels, int, mipLevels);
+
+void vtkRadiosityAtlas::SetTexelDensity(int density) {
+  if (density < UNIFORM || density > ILLUMINATION) {
+    vtkErrorMacro(<< "The density of texels is UNIFORM or ILLUMINATION, not " << density << ".");
+    return;
+  }
+  if (this->GetTexelDensity() != density) {
+    this->Options->density = static_cast<lambert::TexelDensity>(density);
+    this->Modified();
+  }
+}
+
+int vtkRadiosityAtlas::GetTexelDensity() { return static_cast<int>(this->Options->density); }
 
 void vtkRadiosityAtlas::TakeIn(vtkPolyData* mesh, vtkTable* tree, const Progress& progress) {
   const bool hasTree = tree && tree->GetNumberOfRows() > 0;
@@ -101,7 +115,15 @@ int vtkRadiosityAtlas::RequestData(vtkInformation*, vtkInformationVector** input
     }
 
     // Their places.
-    const lambert::RadiosityAtlas atlas = lambert::PackAtlas(last.Charts, *this->Options, progress);
+    lambert::RadiosityAtlas atlas = lambert::PackAtlas(last.Charts, *this->Options, progress);
+    if (vtkPolyData* solved = vtkPolyData::GetData(inputs[2])) {
+      lambert::RadiositySolution solution = lambert::SolutionFromPolyData(solved);
+      if (last.Shown) {
+        solution =
+            lambert::OntoShownSides(std::move(solution), last.Shown->inputFace, last.Shown->side);
+      }
+      atlas = lambert::WithTexelDensity(mesh, std::move(atlas), solution, *this->Options, progress);
+    }
     ++this->NumberOfPackings;
     this->NumberOfCharts = static_cast<vtkIdType>(atlas.set.charts.size());
     this->NumberOfPages = atlas.pages;
@@ -122,6 +144,7 @@ void vtkRadiosityAtlas::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "TexelSize: " << this->GetTexelSize() << "\n"
      << indent << "Padding: " << this->GetPadding() << "\n"
      << indent << "MipLevels: " << this->GetMipLevels() << "\n"
+     << indent << "TexelDensity: " << this->GetTexelDensity() << "\n"
      << indent << "NumberOfCharts: " << this->NumberOfCharts << "\n"
      << indent << "Utilisation: " << this->Utilisation << "\n";
 }

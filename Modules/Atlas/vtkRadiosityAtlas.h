@@ -60,6 +60,13 @@ class LAMBERTATLAS_EXPORT vtkRadiosityAtlas : public vtkPolyDataAlgorithm {
   void SetMipLevels(int levels);
   int GetMipLevels();
   ///@}
+  enum Density { UNIFORM = 0, ILLUMINATION = 1 };
+  ///@{ ILLUMINATION, with a solution: finer texels where the light map would be off by more, as
+  ///many
+  /// in all. Default UNIFORM.
+  void SetTexelDensity(int density);
+  int GetTexelDensity();
+  ///@}
   /// The cluster tree of the input, as vtkFaceClustering's port 1 has it.
   void SetClusterConnection(vtkAlgorithmOutput* tree) { this->SetInputConnection(1, tree); }
 

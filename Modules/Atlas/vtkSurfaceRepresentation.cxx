@@ -55,6 +55,21 @@ lambertOptionMacro(vtkSurfaceRepresentation, TexelSize, double, Atlas.texelSize)
 lambertOptionMacro(vtkSurfaceRepresentation, Padding, int, Atlas.padding);
 lambertOptionMacro(vtkSurfaceRepresentation, MipLevels, int, Atlas.mipLevels);
 
+void vtkSurfaceRepresentation::SetTexelDensity(int density) {
+  if (density < UNIFORM || density > ILLUMINATION) {
+    vtkErrorMacro(<< "The density of texels is UNIFORM or ILLUMINATION, not " << density << ".");
+    return;
+  }
+  if (this->GetTexelDensity() != density) {
+    this->Options->Atlas.density = static_cast<lambert::TexelDensity>(density);
+    this->Modified();
+  }
+}
+
+int vtkSurfaceRepresentation::GetTexelDensity() {
+  return static_cast<int>(this->Options->Atlas.density);
+}
+
 void vtkSurfaceRepresentation::SetRepresentation(const std::string& material, int kind) {
   if (kind < AUTOMATIC || kind > LIGHT_MAP) {
     vtkErrorMacro(<< "A representation is AUTOMATIC, POINTS or LIGHT_MAP, not " << kind << ".");
@@ -124,6 +139,7 @@ void vtkSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "TexelSize: " << this->GetTexelSize() << "\n"
      << indent << "Padding: " << this->GetPadding() << "\n"
      << indent << "MipLevels: " << this->GetMipLevels() << "\n"
+     << indent << "TexelDensity: " << this->GetTexelDensity() << "\n"
      << indent << "Stretch: " << this->GetStretch() << "\n";
   for (const auto& [material, kind] : this->Options->ByMaterial) {
     os << indent << "Representation of " << material << ": " << static_cast<int>(kind) << "\n";

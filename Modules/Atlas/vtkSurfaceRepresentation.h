@@ -40,6 +40,7 @@ class LAMBERTATLAS_EXPORT vtkSurfaceRepresentation : public vtkPolyDataAlgorithm
   int GetRepresentation(const std::string& material);
   ///@}
 
+  enum Density { UNIFORM = 0, ILLUMINATION = 1 };
   ///@{ Of the light map, as vtkRadiosityAtlas has them.
   void SetStretch(double stretch);
   double GetStretch();
@@ -53,6 +54,8 @@ class LAMBERTATLAS_EXPORT vtkSurfaceRepresentation : public vtkPolyDataAlgorithm
   int GetPadding();
   void SetMipLevels(int levels);
   int GetMipLevels();
+  void SetTexelDensity(int density);
+  int GetTexelDensity();
   ///@}
 
   ///@{ The other inputs.

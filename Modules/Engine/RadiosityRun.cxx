@@ -1,5 +1,6 @@
 #include "RadiosityRun.h"
 
+#include "Atlas/Core/TexelDensity.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Timer.h"
 #include "Scene/Core/SceneLimits.h"
@@ -240,7 +241,10 @@ void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
   this->LayFlat(
       [&](double fraction, const char* stage) { return Report(progress, 0.7 * fraction, stage); });
   Timer timer;
-  this->lightMap_ = MakeLightMap(this->LaidScene().mesh, this->atlas_, this->SolutionAsShown(),
+  const RadiositySolution solution = this->SolutionAsShown();
+  this->atlas_ = WithTexelDensity(this->LaidScene().mesh, std::move(this->atlas_), solution,
+                                  *this->options_.atlas, progress);
+  this->lightMap_ = MakeLightMap(this->LaidScene().mesh, this->atlas_, solution,
                                  [&](double fraction, const char* stage) {
                                    return Report(progress, 0.7 + 0.3 * fraction, stage);
                                  });

@@ -10,6 +10,12 @@
 
 namespace lambert {
 
+/// How many texels a metre charts have.
+enum class TexelDensity : uint8_t {
+  Uniform,      ///< all the same
+  Illumination  ///< by the error that the light map of even texels makes on them (thesis 9.3.1)
+};
+
 struct AtlasOptions {
   double stretch = 2;    ///< of a chart, as a factor, [1, inf)
   int pageSize = 1024;   ///< texels along a side, [16, 16384]
@@ -19,6 +25,7 @@ struct AtlasOptions {
   /// Levels of mip maps above the pages themselves whose lookups inside charts take in nothing of
   /// others, [0, 5]: the padding is 1.5 * 2^levels texels at least.
   int mipLevels = 0;
+  TexelDensity density = TexelDensity::Uniform;  ///< counts where there is a solution to follow
 };
 
 struct RadiosityAtlas {
@@ -26,7 +33,7 @@ struct RadiosityAtlas {
   std::vector<int32_t> pageOfChart;                 ///< [0, pages)
   std::vector<std::array<Vec2f, 3>> textureCoords;  ///< by face: of its corners, [0, 1], v upward
   int pages = 0, pageSize = 0, padding = 0;
-  double texelSize = 0;    ///< m
+  double texelSize = 0;    ///< m; the mean where densities differ
   double utilisation = 0;  ///< area of the charts over that of the pages
   double chartSeconds = 0, packSeconds = 0;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "Atlas/Core/TexelDensity.h"
 #include "Common/Core/Error.h"
 
 namespace lambert {
@@ -100,6 +101,18 @@ std::vector<double> MapErrors(const RepresentedScene& scene) {
   return rms;
 }
 
+/// That the surfaces in the light map cover.
+std::vector<double> TexelsOfSurfaces(const RepresentedScene& scene) {
+  std::vector<double> texels(scene.mapped.tree.surfaceRoots.size(), 0);
+  for (size_t face = 0; face < scene.atlas.textureCoords.size(); ++face) {
+    const auto& corners = scene.atlas.textureCoords[face];
+    const Vec2d u(corners[1] - corners[0]), v(corners[2] - corners[0]);
+    texels[size_t(scene.mapped.mesh.surfaceId[face])] +=
+        0.5 * std::abs(u.x * v.y - u.y * v.x) * scene.atlas.pageSize * scene.atlas.pageSize;
+  }
+  return texels;
+}
+
 /// The triangles of a solution that lie on the brighter sides of its surfaces; and the surface of
 /// each, as `rows` number them.
 RadiositySolution OnBrighterSides(const SurfaceSubset& subset, const std::vector<size_t>& rows,
@@ -170,17 +183,19 @@ RepresentedScene RepresentAsTheyAre(const TriangleMesh& mesh, const ClusterTree&
   scene.atlas = MakeRadiosityAtlas(
       scene.mapped.mesh, scene.mapped.tree, atlasOptions,
       [&](double fraction, const char* stage) { return Report(progress, 0.7 * fraction, stage); });
+  scene.atlas = WithTexelDensity(scene.mapped.mesh, std::move(scene.atlas), scene.mapped.solution,
+                                 atlasOptions, progress);
   scene.map = MakeLightMap(scene.mapped.mesh, scene.atlas, scene.mapped.solution,
                            [&](double fraction, const char* stage) {
                              return Report(progress, 0.7 + 0.3 * fraction, stage);
                            });
 
   // What it costs.
-  const std::vector<double> errors = MapErrors(scene);
+  const std::vector<double> errors = MapErrors(scene), texels = TexelsOfSurfaces(scene);
   size_t next = 0;
   for (SurfaceCost& cost : scene.surfaces) {
     if (cost.chosen != Representation::LightMap) continue;
-    cost.texels = cost.area / (scene.atlas.texelSize * scene.atlas.texelSize);
+    cost.texels = texels[next];
     cost.mapError = errors[next++];
   }
   return scene;

@@ -140,4 +140,11 @@ column, row = (uv[corners].mean(axis=1) * 256).astype(int).T
 light, on_sheet = page()[row, column].mean(axis=1), np.isin(faces, both)
 dim, bright = sorted(light[on_sheet & (sides == side)].mean() for side in (0, 1))
 assert 0 < dim < 0.5 * bright, (dim, bright)
+
+# Texels follow the illumination where that is asked for; the charts are the same.
+assert atlas.GetTexelDensity() == atlas.UNIFORM
+atlas.SetTexelDensity(atlas.ILLUMINATION)
+light_map.Update()
+assert atlas.GetNumberOfSegmentations() == cut
+assert not np.array_equal(uv, vtk_to_numpy(atlas.GetOutput().GetPointData().GetArray("LightMapTCoords")))
 print("radiosity light map: passed")
