@@ -122,7 +122,9 @@ int vtkRadiosityAtlas::RequestData(vtkInformation*, vtkInformationVector** input
         solution =
             lambert::OntoShownSides(std::move(solution), last.Shown->inputFace, last.Shown->side);
       }
-      atlas = lambert::WithTexelDensity(mesh, std::move(atlas), solution, *this->Options, progress);
+      atlas = lambert::WithTexelDensity(
+          mesh, std::move(atlas), solution, *this->Options,
+          [&](double, const char* stage) { return lambert::Report(progress, 1, stage); });
     }
     ++this->NumberOfPackings;
     this->NumberOfCharts = static_cast<vtkIdType>(atlas.set.charts.size());

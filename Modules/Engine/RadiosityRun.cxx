@@ -242,8 +242,9 @@ void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
       [&](double fraction, const char* stage) { return Report(progress, 0.7 * fraction, stage); });
   Timer timer;
   const RadiositySolution solution = this->SolutionAsShown();
-  this->atlas_ = WithTexelDensity(this->LaidScene().mesh, std::move(this->atlas_), solution,
-                                  *this->options_.atlas, progress);
+  this->atlas_ = WithTexelDensity(
+      this->LaidScene().mesh, std::move(this->atlas_), solution, *this->options_.atlas,
+      [&](double, const char* stage) { return Report(progress, 0.7, stage); });
   this->lightMap_ = MakeLightMap(this->LaidScene().mesh, this->atlas_, solution,
                                  [&](double fraction, const char* stage) {
                                    return Report(progress, 0.7 + 0.3 * fraction, stage);

@@ -183,8 +183,9 @@ RepresentedScene RepresentAsTheyAre(const TriangleMesh& mesh, const ClusterTree&
   scene.atlas = MakeRadiosityAtlas(
       scene.mapped.mesh, scene.mapped.tree, atlasOptions,
       [&](double fraction, const char* stage) { return Report(progress, 0.7 * fraction, stage); });
-  scene.atlas = WithTexelDensity(scene.mapped.mesh, std::move(scene.atlas), scene.mapped.solution,
-                                 atlasOptions, progress);
+  scene.atlas = WithTexelDensity(
+      scene.mapped.mesh, std::move(scene.atlas), scene.mapped.solution, atlasOptions,
+      [&](double, const char* stage) { return Report(progress, 0.7, stage); });
   scene.map = MakeLightMap(scene.mapped.mesh, scene.atlas, scene.mapped.solution,
                            [&](double fraction, const char* stage) {
                              return Report(progress, 0.7 + 0.3 * fraction, stage);
