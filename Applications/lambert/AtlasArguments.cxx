@@ -25,6 +25,12 @@ std::vector<CLI::Option*> AddAtlasOptions(CLI::App* command, AtlasOptions* atlas
           ->check(CLI::Range(0, 64))
           ->capture_default_str(),
       command
+          ->add_option("--mip-levels", atlas->mipLevels,
+                       "Levels of mip maps that take in nothing of other charts: padding of 1.5 * "
+                       "2^LEVELS texels at least")
+          ->check(CLI::Range(0, 5))
+          ->capture_default_str(),
+      command
           ->add_option("--stretch", atlas->stretch,
                        "By which lengths in a chart grow or shrink at most")
           ->check(Within(1, 1e6, "from 1 to 1e6"))

@@ -112,7 +112,8 @@ void DrawLightMap(const SolveArguments& arguments, const ProgressCallback& progr
     if (run->Represented()) {
       WriteRepresentedScene(*run->Represented(), run->GetScene(), arguments.lightMap);
     } else {
-      WriteLightMap(run->Atlas(), run->GetScene(), arguments.lightMap);
+      WriteLightMap(run->Atlas(), run->LaidScene(), run->Shown() ? &*run->Shown() : nullptr,
+                    arguments.lightMap);
     }
     WritePages(*run->DrawnLightMap(), run->Solution(), arguments.tone, arguments.lightMap,
                arguments.pageFormats);

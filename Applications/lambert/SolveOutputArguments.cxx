@@ -67,6 +67,15 @@ void AddFalseColorOptions(CLI::App* command, CLI::Option* image, SolveArguments*
 }
 
 /// Which surfaces a light map takes.
+void AddTexelDensity(CLI::App* command, CLI::Option* lightMap, AtlasOptions* atlas) {
+  command
+      ->add_option("--texel-density", atlas->density,
+                   "uniform, or illumination: finer texels where light varies, as many in all")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, TexelDensity>{
+          {"uniform", TexelDensity::Uniform}, {"illumination", TexelDensity::Illumination}}))
+      ->needs(lightMap);
+}
+
 void AddRepresentationOptions(CLI::App* command, CLI::Option* lightMap, SolveArguments* arguments) {
   command
       ->add_option_function<int64_t>(
@@ -142,6 +151,7 @@ void SolveArguments::AddOutputsTo(CLI::App* command) {
   CLI::Option* map = command->add_option(
       "--lightmap", lightMap, "Mesh with texture coordinates, .vtp, its pages beside it");
   for (CLI::Option* option : AddAtlasOptions(command, &atlas)) option->needs(map);
+  AddTexelDensity(command, map, &atlas);
   AddRepresentationOptions(command, map, this);
   AddMapOutputOptions(command, map, this);
   command->add_flag("--both-sides", bothSides, "PLY: keep both lit sides of a face");

@@ -13,6 +13,7 @@
 #include "vtkRadiosityArrays.h"
 #include "vtkSceneAdapter.h"
 #include "vtkTriangleMeshAdapter.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkValueArrays.h"
 
 #include <algorithm>
@@ -77,7 +78,8 @@ void JoinPoints(const std::vector<int64_t>& shared, TriangleMesh* mesh) {
 }
 }  // namespace
 
-RadiosityAtlas AtlasFromPolyData(vtkPolyData* input, TriangleMesh* mesh) {
+RadiosityAtlas AtlasFromPolyData(vtkPolyData* input, TriangleMesh* mesh,
+                                 RadiositySolution* solution) {
   *mesh = TriangleMeshFromPolyData(input);
   const size_t faces = mesh->triangles.size(), points = mesh->positions.size();
   vtkFieldData* fields = input->GetFieldData();
@@ -102,6 +104,15 @@ RadiosityAtlas AtlasFromPolyData(vtkPolyData* input, TriangleMesh* mesh) {
   JoinPoints(NumbersFromArray<int64_t>(
                  RequireArray(input->GetPointData(), Names::SharedPointId(), 1, points)),
              mesh);
+
+  // What they show.
+  vtkCellData* cells = input->GetCellData();
+  if (cells->HasArray(Names::Side())) {
+    *solution = OntoShownSides(
+        std::move(*solution),
+        NumbersFromArray<int64_t>(RequireArray(cells, Names::InputFaceId(), 1, faces)),
+        NumbersFromArray<uint8_t>(RequireArray(cells, Names::Side(), 1, faces)));
+  }
   return atlas;
 }
 
@@ -124,9 +135,16 @@ void PolyDataFromRepresentedScene(const RepresentedScene& represented, Scene sce
   points->AddArray(ArrayFromTuples(Names::LightMapTCoords(), joined.lightMapCoords));
   points->AddArray(ArrayFromTuples(Names::Irradiance(), joined.irradiance));
   output->GetCellData()->AddArray(ArrayFromNumbers<vtkIntArray>(Names::PageId(), joined.page));
+  output->GetFieldData()->AddArray(ArrayFromNumbers<vtkIntArray>(
+      Names::AtlasPadding(), std::vector<int>{represented.atlas.padding}));
+  if (!joined.side.empty()) {
+    output->GetCellData()->AddArray(
+        ArrayFromNumbers<vtkUnsignedCharArray>(Names::Side(), joined.side));
+  }
 }
 
-void PolyDataFromAtlas(const RadiosityAtlas& atlas, Scene scene, vtkPolyData* output) {
+void PolyDataFromAtlas(const RadiosityAtlas& atlas, Scene scene, vtkPolyData* output,
+                       const ShownSides* shown) {
   std::vector<int64_t> shared;
   const std::vector<Vec2f> coordinates = SplitAtCharts(atlas, &scene.mesh, &shared);
   PolyDataFromScene(scene, output);
@@ -153,5 +171,11 @@ void PolyDataFromAtlas(const RadiosityAtlas& atlas, Scene scene, vtkPolyData* ou
   }
   output->GetCellData()->AddArray(charts);
   output->GetCellData()->AddArray(pages);
+  if (shown) {
+    output->GetCellData()->AddArray(
+        ArrayFromNumbers<vtkIdTypeArray>(Names::InputFaceId(), shown->inputFace));
+    output->GetCellData()->AddArray(
+        ArrayFromNumbers<vtkUnsignedCharArray>(Names::Side(), shown->side));
+  }
 }
 }  // namespace lambert

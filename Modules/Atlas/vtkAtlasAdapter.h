@@ -3,6 +3,7 @@
 #define vtkAtlasAdapter_h
 
 #include "Atlas/Core/RadiosityAtlas.h"
+#include "Atlas/Core/ShownSides.h"
 #include "Atlas/Core/SurfaceRepresentation.h"
 #include "Scene/Core/Scene.h"
 #include "lambertAtlasModule.h"
@@ -13,13 +14,16 @@ class vtkPolyData;
 namespace lambert {
 /// Fills `output` with the mesh and the tables of `scene`, points split where charts meet, with
 /// LightMapTCoords and SharedPointId at its points, ChartId and PageId at its cells, and the size
-/// of pages and texels and the padding in its field data.
+/// of pages and texels and the padding in its field data. Where the mesh is that of `shown`, also
+/// InputFaceId and Side.
 LAMBERTATLAS_EXPORT void PolyDataFromAtlas(const RadiosityAtlas& atlas, Scene scene,
-                                           vtkPolyData* output);
+                                           vtkPolyData* output, const ShownSides* shown = nullptr);
 
 /// The atlas that such a mesh carries, as far as a light map needs it, and the mesh as it was
-/// before it was split. Throws Error where an array is missing or of the wrong shape.
-LAMBERTATLAS_EXPORT RadiosityAtlas AtlasFromPolyData(vtkPolyData* input, TriangleMesh* mesh);
+/// before it was split; `solution` onto its faces, where they have sides. Throws Error where an
+/// array is missing or of the wrong shape.
+LAMBERTATLAS_EXPORT RadiosityAtlas AtlasFromPolyData(vtkPolyData* input, TriangleMesh* mesh,
+                                                     RadiositySolution* solution);
 
 /// Fills `output` with a vtkImageData a page, its lowest row first: point scalars Irradiance, 3
 /// float, W/m2.
@@ -27,7 +31,7 @@ LAMBERTATLAS_EXPORT void PagesFromLightMap(const LightMap& map, vtkMultiBlockDat
 
 /// Fills `output` with the faces of `represented`, those of the light map first, and the tables of
 /// `scene`. At the points: Irradiance, and LightMapTCoords, which are (-1, -1) where the points
-/// light; at the cells PageId, of a face that its points light 0.
+/// light; at the cells PageId, of a face that its points light 0, and Side, where it has sheets.
 LAMBERTATLAS_EXPORT void PolyDataFromRepresentedScene(const RepresentedScene& represented,
                                                       Scene scene, vtkPolyData* output);
 }  // namespace lambert

@@ -1,6 +1,7 @@
 #include "vtkRadiosityAtlas.h"
 
 #include "Atlas/Core/RadiosityAtlas.h"
+#include "Atlas/Core/TexelDensity.h"
 #include "Clustering/vtkClusterTreeAdapter.h"
 #include "vtkAtlasAdapter.h"
 #include "vtkCoreShell.h"
@@ -11,11 +12,14 @@
 #include "vtkSceneAdapter.h"
 #include "vtkTable.h"
 
+#include <optional>
+
 /// The steps before packing, and the time stamps of what they were made of.
 struct vtkRadiosityAtlas::Kept {
-  vtkMTimeType MeshTime = 0, TreeTime = 0;
+  vtkMTimeType MeshTime = 0, TreeTime = 0, SolutionTime = 0;
   lambert::Scene Scene;
   lambert::ClusterTree Tree;
+  std::optional<lambert::ShownSides> Shown;  ///< of a scene that is solved and has sheets
   lambert::ChartSet Charts;
 };
 
@@ -23,14 +27,15 @@ vtkStandardNewMacro(vtkRadiosityAtlas);
 
 vtkRadiosityAtlas::vtkRadiosityAtlas()
     : Options(new lambert::AtlasOptions), Last(std::make_unique<Kept>()) {
-  this->SetNumberOfInputPorts(2);
+  this->SetNumberOfInputPorts(3);
 }
 
 vtkRadiosityAtlas::~vtkRadiosityAtlas() = default;
 
 int vtkRadiosityAtlas::FillInputPortInformation(int port, vtkInformation* information) {
   if (port == 0) return this->Superclass::FillInputPortInformation(port, information);
-  information->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkTable");
+  information->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(),
+                   port == 1 ? "vtkTable" : "vtkPolyData");
   information->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   return 1;
 }
@@ -40,6 +45,20 @@ lambertOptionMacro(vtkRadiosityAtlas, PageSize, int, pageSize);
 lambertOptionMacro(vtkRadiosityAtlas, Pages, int, pages);
 lambertOptionMacro(vtkRadiosityAtlas, TexelSize, double, texelSize);
 lambertOptionMacro(vtkRadiosityAtlas, Padding, int, padding);
+lambertOptionMacro(vtkRadiosityAtlas, MipLevels, int, mipLevels);
+
+void vtkRadiosityAtlas::SetTexelDensity(int density) {
+  if (density < UNIFORM || density > ILLUMINATION) {
+    vtkErrorMacro(<< "The density of texels is UNIFORM or ILLUMINATION, not " << density << ".");
+    return;
+  }
+  if (this->GetTexelDensity() != density) {
+    this->Options->density = static_cast<lambert::TexelDensity>(density);
+    this->Modified();
+  }
+}
+
+int vtkRadiosityAtlas::GetTexelDensity() { return static_cast<int>(this->Options->density); }
 
 void vtkRadiosityAtlas::TakeIn(vtkPolyData* mesh, vtkTable* tree, const Progress& progress) {
   const bool hasTree = tree && tree->GetNumberOfRows() > 0;
@@ -59,26 +78,63 @@ void vtkRadiosityAtlas::TakeIn(vtkPolyData* mesh, vtkTable* tree, const Progress
   ++this->NumberOfReadings;
 }
 
+void vtkRadiosityAtlas::FindSides(vtkPolyData* solution) {
+  const vtkMTimeType time = solution ? solution->GetMTime() : 0;
+  Kept& last = *this->Last;
+  if (last.SolutionTime == time) {
+    return;
+  }
+  last.SolutionTime = time;
+  std::optional<lambert::ShownSides> shown;
+  if (solution) {
+    shown =
+        lambert::ShowBothSides(last.Scene.mesh, last.Tree, lambert::SolutionFromPolyData(solution));
+  }
+  const bool areSame = shown ? last.Shown && shown->inputFace == last.Shown->inputFace &&
+                                   shown->side == last.Shown->side
+                             : !last.Shown;
+  if (!areSame) {
+    last.Shown = std::move(shown);
+    last.Charts = lambert::ChartSet();
+  }
+}
+
 int vtkRadiosityAtlas::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                    vtkInformationVector* outputs) {
   return lambert::RunCore(this, [&](const lambert::ProgressCallback& progress) {
     // Faces and charts, where they are not those of the last run.
     this->TakeIn(vtkPolyData::GetData(inputs[0]), vtkTable::GetData(inputs[1]), progress);
+    this->FindSides(vtkPolyData::GetData(inputs[2]));
     Kept& last = *this->Last;
-    const lambert::ChartOptions wanted = lambert::ChartOptionsOf(last.Tree, *this->Options);
+    const lambert::ClusterTree& tree = last.Shown ? last.Shown->tree : last.Tree;
+    const lambert::TriangleMesh& mesh = last.Shown ? last.Shown->mesh : last.Scene.mesh;
+    const lambert::ChartOptions wanted = lambert::ChartOptionsOf(tree, *this->Options);
     if (!last.Charts.IsOf(wanted)) {
-      last.Charts = lambert::CutIntoCharts(last.Scene.mesh, last.Tree, wanted, progress);
+      last.Charts = lambert::CutIntoCharts(mesh, tree, wanted, progress);
       ++this->NumberOfSegmentations;
     }
 
     // Their places.
-    const lambert::RadiosityAtlas atlas = lambert::PackAtlas(last.Charts, *this->Options, progress);
+    lambert::RadiosityAtlas atlas = lambert::PackAtlas(last.Charts, *this->Options, progress);
+    if (vtkPolyData* solved = vtkPolyData::GetData(inputs[2])) {
+      lambert::RadiositySolution solution = lambert::SolutionFromPolyData(solved);
+      if (last.Shown) {
+        solution =
+            lambert::OntoShownSides(std::move(solution), last.Shown->inputFace, last.Shown->side);
+      }
+      atlas = lambert::WithTexelDensity(
+          mesh, std::move(atlas), solution, *this->Options,
+          [&](double, const char* stage) { return lambert::Report(progress, 1, stage); });
+    }
     ++this->NumberOfPackings;
     this->NumberOfCharts = static_cast<vtkIdType>(atlas.set.charts.size());
     this->NumberOfPages = atlas.pages;
     this->DeliveredTexelSize = atlas.texelSize;
     this->Utilisation = atlas.utilisation;
-    lambert::PolyDataFromAtlas(atlas, last.Scene, vtkPolyData::GetData(outputs));
+    lambert::Scene scene = last.Scene;
+    scene.mesh = mesh;
+    lambert::PolyDataFromAtlas(atlas, std::move(scene), vtkPolyData::GetData(outputs),
+                               last.Shown ? &*last.Shown : nullptr);
   });
 }
 
@@ -89,6 +145,8 @@ void vtkRadiosityAtlas::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "Pages: " << this->GetPages() << "\n"
      << indent << "TexelSize: " << this->GetTexelSize() << "\n"
      << indent << "Padding: " << this->GetPadding() << "\n"
+     << indent << "MipLevels: " << this->GetMipLevels() << "\n"
+     << indent << "TexelDensity: " << this->GetTexelDensity() << "\n"
      << indent << "NumberOfCharts: " << this->NumberOfCharts << "\n"
      << indent << "Utilisation: " << this->Utilisation << "\n";
 }

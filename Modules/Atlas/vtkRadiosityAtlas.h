@@ -4,12 +4,15 @@
  *
  * Input port 0: vtkPolyData of triangles in world space, with the arrays of vtkRadiosityArrays that
  * it has. Input port 1 (optional): vtkTable, its cluster tree, as vtkFaceClustering leaves both;
- * without it the filter clusters. Output: the mesh in the order of the tree, points split where
- * charts meet, with point array `LightMapTCoords` (2 float, [0, 1], v upward) and cell arrays
- * `ChartId` and `PageId`. What is still valid is not made again: another page size, padding or
- * texel size packs the charts anew, and cuts them anew only where one would be cut or taken
- * otherwise. Charts are clusters that least squares conformal maps lay flat without
- * overlaps (thesis 5.2, levy2002).
+ * without it the filter clusters. Input port 2 (optional): vtkPolyData, output port 0 of a
+ * radiosity method that solved the same mesh: both sides of sheets that are lit on both get charts,
+ * as faces of their own, and where there are such, all faces are wound towards the side that they
+ * show, with cell arrays `InputFaceId` and `Side`. Output: the mesh in the order of the tree,
+ * points split where charts meet, with point array `LightMapTCoords` (2 float, [0, 1], v upward)
+ * and cell arrays `ChartId` and `PageId`. What is still valid is not made again: another page size,
+ * padding or texel size packs the charts anew, and cuts them anew only where one would be cut or
+ * taken otherwise. Charts are clusters that least squares conformal maps lay flat without overlaps
+ * (thesis 5.2, levy2002).
  */
 #ifndef vtkRadiosityAtlas_h
 #define vtkRadiosityAtlas_h
@@ -52,8 +55,25 @@ class LAMBERTATLAS_EXPORT vtkRadiosityAtlas : public vtkPolyDataAlgorithm {
   void SetPadding(int texels);
   int GetPadding();
   ///@}
+  ///@{ Levels of mip maps above the pages themselves that take in nothing of other charts, [0, 5];
+  /// default 0: padding of 1.5 * 2^levels texels at least.
+  void SetMipLevels(int levels);
+  int GetMipLevels();
+  ///@}
+  enum Density { UNIFORM = 0, ILLUMINATION = 1 };
+  ///@{ ILLUMINATION, with a solution: finer texels where the light map would be off by more, as
+  ///many
+  /// in all. Default UNIFORM.
+  void SetTexelDensity(int density);
+  int GetTexelDensity();
+  ///@}
   /// The cluster tree of the input, as vtkFaceClustering's port 1 has it.
   void SetClusterConnection(vtkAlgorithmOutput* tree) { this->SetInputConnection(1, tree); }
+
+  /// Output port 0 of the method.
+  void SetSolutionConnection(vtkAlgorithmOutput* solution) {
+    this->SetInputConnection(2, solution);
+  }
 
   ///@{ What the last run made.
   vtkIdType GetNumberOfCharts() { return this->NumberOfCharts; }
@@ -81,6 +101,8 @@ class LAMBERTATLAS_EXPORT vtkRadiosityAtlas : public vtkPolyDataAlgorithm {
   struct Kept;
   using Progress = std::function<bool(double fraction, const char* stage)>;
   void TakeIn(vtkPolyData* mesh, vtkTable* tree, const Progress& progress);
+  /// The sides that the charts are of; where they are others than before, charts are cut anew.
+  void FindSides(vtkPolyData* solution);
 
   std::unique_ptr<lambert::AtlasOptions> Options;
   std::unique_ptr<Kept> Last;  ///< what the last run made

@@ -23,10 +23,10 @@ int vtkRadiosityLightMap::RequestData(vtkInformation*, vtkInformationVector** in
                                       vtkInformationVector* outputs) {
   return lambert::RunCore(this, [&](const lambert::ProgressCallback& progress) {
     lambert::TriangleMesh mesh;
-    const lambert::RadiosityAtlas atlas =
-        lambert::AtlasFromPolyData(vtkPolyData::GetData(inputs[0]), &mesh);
-    const lambert::RadiositySolution solution =
+    lambert::RadiositySolution solution =
         lambert::SolutionFromPolyData(vtkPolyData::GetData(inputs[1]));
+    const lambert::RadiosityAtlas atlas =
+        lambert::AtlasFromPolyData(vtkPolyData::GetData(inputs[0]), &mesh, &solution);
     const lambert::LightMap map = lambert::MakeLightMap(mesh, atlas, solution, progress);
     ++this->NumberOfDrawings;
     this->CoveredTexels = map.coveredTexels;

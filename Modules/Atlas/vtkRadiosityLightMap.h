@@ -6,7 +6,8 @@
  * port 0 of a radiosity method that solved the same mesh: both take theirs from vtkFaceClustering,
  * or the order of the faces is not the same, which is an error. Output: vtkMultiBlockDataSet, a
  * vtkImageData a page, its lowest row first, with point scalars `Irradiance` (3 float, W/m2), as
- * vtkRadiosityActor takes them. Of a surface that is lit on both sides the brighter is kept.
+ * vtkRadiosityActor takes them. Of a surface that is lit on both sides the brighter is kept,
+ * unless the atlas was given the solution, too.
  * Another solution draws light alone; the atlas before it stays.
  */
 #ifndef vtkRadiosityLightMap_h

@@ -53,6 +53,22 @@ lambertOptionMacro(vtkSurfaceRepresentation, PageSize, int, Atlas.pageSize);
 lambertOptionMacro(vtkSurfaceRepresentation, Pages, int, Atlas.pages);
 lambertOptionMacro(vtkSurfaceRepresentation, TexelSize, double, Atlas.texelSize);
 lambertOptionMacro(vtkSurfaceRepresentation, Padding, int, Atlas.padding);
+lambertOptionMacro(vtkSurfaceRepresentation, MipLevels, int, Atlas.mipLevels);
+
+void vtkSurfaceRepresentation::SetTexelDensity(int density) {
+  if (density < UNIFORM || density > ILLUMINATION) {
+    vtkErrorMacro(<< "The density of texels is UNIFORM or ILLUMINATION, not " << density << ".");
+    return;
+  }
+  if (this->GetTexelDensity() != density) {
+    this->Options->Atlas.density = static_cast<lambert::TexelDensity>(density);
+    this->Modified();
+  }
+}
+
+int vtkSurfaceRepresentation::GetTexelDensity() {
+  return static_cast<int>(this->Options->Atlas.density);
+}
 
 void vtkSurfaceRepresentation::SetRepresentation(const std::string& material, int kind) {
   if (kind < AUTOMATIC || kind > LIGHT_MAP) {
@@ -91,6 +107,8 @@ void FillCosts(const std::vector<lambert::SurfaceCost>& surfaces, vtkTable* tabl
   add(vtkNew<vtkDoubleArray>().Get(), "Area", [](const Cost& s) { return s.area; });
   add(vtkNew<vtkDoubleArray>().Get(), "Texels", [](const Cost& s) { return s.texels; });
   add(vtkNew<vtkDoubleArray>().Get(), "MapError", [](const Cost& s) { return s.mapError; });
+  add(vtkNew<vtkIdTypeArray>().Get(), "Surface", [](const Cost& s) { return s.surface; });
+  add(vtkNew<vtkIdTypeArray>().Get(), "Side", [](const Cost& s) { return s.side; });
 }
 }  // namespace
 
@@ -120,6 +138,8 @@ void vtkSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "Pages: " << this->GetPages() << "\n"
      << indent << "TexelSize: " << this->GetTexelSize() << "\n"
      << indent << "Padding: " << this->GetPadding() << "\n"
+     << indent << "MipLevels: " << this->GetMipLevels() << "\n"
+     << indent << "TexelDensity: " << this->GetTexelDensity() << "\n"
      << indent << "Stretch: " << this->GetStretch() << "\n";
   for (const auto& [material, kind] : this->Options->ByMaterial) {
     os << indent << "Representation of " << material << ": " << static_cast<int>(kind) << "\n";

@@ -10,7 +10,8 @@
  * `PageId`. Output port 1: vtkMultiBlockDataSet, the pages, as vtkRadiosityLightMap has them.
  * Output port 2: vtkTable, a row a surface: `LightMapped` (0 or 1), `InputTriangles`,
  * `RefinedTriangles`, `Area` (m2), `Texels`, `MapError` (relative RMS of irradiance; both 0 outside
- * the light map).
+ * the light map), `Surface` and `Side`: a sheet that is lit on both sides has a row for each, and
+ * the faces of port 0 then have `Side`, too, and are wound towards it.
  */
 #ifndef vtkSurfaceRepresentation_h
 #define vtkSurfaceRepresentation_h
@@ -39,6 +40,7 @@ class LAMBERTATLAS_EXPORT vtkSurfaceRepresentation : public vtkPolyDataAlgorithm
   int GetRepresentation(const std::string& material);
   ///@}
 
+  enum Density { UNIFORM = 0, ILLUMINATION = 1 };
   ///@{ Of the light map, as vtkRadiosityAtlas has them.
   void SetStretch(double stretch);
   double GetStretch();
@@ -50,6 +52,10 @@ class LAMBERTATLAS_EXPORT vtkSurfaceRepresentation : public vtkPolyDataAlgorithm
   double GetTexelSize();
   void SetPadding(int texels);
   int GetPadding();
+  void SetMipLevels(int levels);
+  int GetMipLevels();
+  void SetTexelDensity(int density);
+  int GetTexelDensity();
   ///@}
 
   ///@{ The other inputs.

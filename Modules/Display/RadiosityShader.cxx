@@ -61,6 +61,33 @@ vec3 Displayed(vec3 radiosity)
 }
 )";
 
+// Trilinear as far as charts are kept apart; places outside of the map are black (thesis 6.5.1).
+const char* const kLightMapLookup = R"(
+vec3 LightOfMap()
+{
+  vec2 size = vec2(textureSize(lightMap, 0));
+  vec2 across = dFdx(lightMapCoordsVSOutput) * size, along = dFdy(lightMapCoordsVSOutput) * size;
+  float level = 0.5 * log2(max(1e-12, max(dot(across, across), dot(along, along))));
+  level = clamp(level, 0.0, float(lightMapLevels));
+  return step(0.0, lightMapCoordsVSOutput.x) * textureLod(lightMap, lightMapCoordsVSOutput, level).rgb;
+}
+)";
+
+// What a glossy surface mirrors, blurred by its highlight: a lobe of cos^power is about
+// sqrt(2 / (power + 2)) wide. Longitude and latitude as in VTK's physically based shading.
+const char* const kEnvironmentLookup = R"(
+vec3 Mirrored(vec3 normal, vec3 place)
+{
+  vec3 view = environmentParallel == 1 ? vec3(0.0, 0.0, -1.0) : normalize(place);
+  vec3 direction = environmentFromView * reflect(view, normal);
+  vec2 at = vec2(atan(direction.z, direction.x) / 6.2831853 + 0.5,
+                 asin(clamp(direction.y, -1.0, 1.0)) / 3.1415927 + 0.5);
+  float texel = 6.2831853 / float(textureSize(environmentMap, 0).x);
+  float level = max(0.0, log2(sqrt(2.0 / (environmentPower + 2.0)) / texel));
+  return textureLod(environmentMap, at, level).rgb;
+}
+)";
+
 /// What VTK puts at the tag, then ours.
 std::string Behind(const std::string& tag, const std::string& code) { return tag + "\n" + code; }
 
@@ -71,13 +98,25 @@ std::string FragmentCode(const RadiosityShaderParts& parts) {
     base = "texture(" + parts.baseTexture + ", tcoordVCVSOutput).rgb";
     base = parts.isBaseEncoded ? "LinearFromSrgb(" + base + ")" : base;
   }
-  const std::string map =
-      parts.lightMap ? "texture(lightMap, lightMapCoordsVSOutput).rgb" : "vec3(0.0)";
+  const std::string map = parts.lightMap ? "LightOfMap()" : "vec3(0.0)";
   return "  vec3 radiosity = vertexRadiosityVSOutput + " + base +
          " * (vertexIrradianceVSOutput + " + map +
          ");\n"
          "  gl_FragData[0] = vec4(linearLight == 1 ? radiosity : Displayed(radiosity) + "
          "specularLight, opacity);\n";
+}
+
+/// Behind the light of lamps: what the surface mirrors, as its specular colour tells.
+std::string SpecularCode(const RadiosityShaderParts& parts) {
+  std::string code = "  vec3 specularLight = gl_FragData[0].rgb;\n";
+  if (parts.environment) {
+    const std::string mirrored = "Mirrored(normalVCVSOutput, vertexVC.xyz)";
+    code += "  specularLight += specularColor * " +
+            (parts.isEnvironmentEncoded ? mirrored
+                                        : "SrgbFromLinear(clamp(" + mirrored + ", 0.0, 1.0))") +
+            ";\n";
+  }
+  return code;
 }
 }  // namespace
 
@@ -93,6 +132,8 @@ void ReplaceDiffuseLight(const RadiosityShaderParts& parts, vtkShaderProperty* s
   shader->AddVertexShaderReplacement("//VTK::Normal::Impl", true,
                                      Behind("//VTK::Normal::Impl", kVertexCode), false);
   addToFragments("//VTK::Normal::Dec", kFragmentDeclarations);
+  addToFragments("//VTK::TMap::Dec", std::string(parts.lightMap ? kLightMapLookup : "") +
+                                         (parts.environment ? kEnvironmentLookup : ""));
 
   // Without ambient and diffuse light what VTK works out is specular (thesis 6.5.1). The base
   // colour of physically based shading stays, for it is the reflectance of metals.
@@ -103,10 +144,27 @@ void ReplaceDiffuseLight(const RadiosityShaderParts& parts, vtkShaderProperty* s
     shader->AddFragmentShaderReplacement("DiffuseLambert(albedo)", false, "vec3(0.0)", true);
     shader->AddFragmentShaderReplacement("irradiance * albedo", false, "vec3(0.0)", true);
   }
-  addToFragments("//VTK::Light::Impl", "  vec3 specularLight = gl_FragData[0].rgb;\n");
+  addToFragments("//VTK::Light::Impl", SpecularCode(parts));
 
   // Behind VTK's own textures: they would tint the specular light.
   addToFragments("//VTK::TCoord::Impl", FragmentCode(parts));
+}
+
+void SetLightMapLevels(int last, vtkShaderProperty* shader) {
+  shader->GetFragmentCustomUniforms()->SetUniformi("lightMapLevels", last);
+}
+
+void SetEnvironmentView(const EnvironmentView& view, vtkShaderProperty* shader) {
+  vtkUniforms* uniforms = shader->GetFragmentCustomUniforms();
+  std::array<float, 9> byColumn{};
+  for (size_t row = 0; row < 3; ++row) {
+    for (size_t column = 0; column < 3; ++column) {
+      byColumn[3 * column + row] = view.fromView[3 * row + column];
+    }
+  }
+  uniforms->SetUniformMatrix3x3("environmentFromView", byColumn.data());
+  uniforms->SetUniformi("environmentParallel", view.isParallel ? 1 : 0);
+  uniforms->SetUniformf("environmentPower", view.specularPower);
 }
 
 void SetExposure(const ToneMapping& toneMapping, bool linear, vtkShaderProperty* shader) {

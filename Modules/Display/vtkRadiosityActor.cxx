@@ -3,8 +3,12 @@
 #include "Common/Core/Error.h"
 #include "Display/Core/PointAppearance.h"
 #include "RadiosityShader.h"
+#include "vtkCamera.h"
 #include "vtkCellData.h"
+#include "vtkFieldData.h"
 #include "vtkImageData.h"
+#include "vtkMath.h"
+#include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -13,6 +17,7 @@
 #include "vtkProperty.h"
 #include "vtkRadiosityArrays.h"
 #include "vtkRadiosityToneMapping.h"
+#include "vtkRenderer.h"
 #include "vtkShaderProperty.h"
 #include "vtkTexture.h"
 #include "vtkTriangleMeshAdapter.h"
@@ -63,11 +68,12 @@ vtkRadiosityActor::vtkRadiosityActor()
   this->LightMapper->SetInputData(this->Drawn);
   this->SetMapper(this->LightMapper);
 
-  // A light map as it is, black outside.
+  // A light map as it is.
   this->LightMapTexture->SetColorModeToDirectScalars();
   this->LightMapTexture->InterpolateOn();
-  this->LightMapTexture->SetWrap(vtkTexture::ClampToBorder);
-  this->LightMapTexture->SetBorderColor(0, 0, 0, 0);
+  this->LightMapTexture->MipmapOn();
+  this->LightMapTexture->SetMaximumAnisotropicFiltering(1);
+  this->LightMapTexture->SetWrap(vtkTexture::ClampToEdge);
 }
 
 vtkRadiosityActor::~vtkRadiosityActor() { this->ToneMapping->Delete(); }
@@ -173,6 +179,52 @@ void vtkRadiosityActor::UpdateAppearance() {
   this->GetProperty()->SetBackfaceCulling(this->Mesh->GetCellData()->HasArray(Names::Side()));
 }
 
+int vtkRadiosityActor::LightMapLevels() {
+  vtkDataArray* padding = this->Mesh->GetFieldData()->GetArray(Names::AtlasPadding());
+  const bool isKnown = padding && padding->GetNumberOfTuples() == 1;
+  return isKnown ? lambert::SafeMipLevel(static_cast<int>(padding->GetComponent(0, 0))) : 0;
+}
+
+void vtkRadiosityActor::UpdateEnvironment(vtkRenderer* renderer) {
+  vtkTexture* texture = renderer && renderer->GetUseImageBasedLighting() &&
+                                this->GetProperty()->GetInterpolation() != VTK_PBR &&
+                                this->GetProperty()->GetLighting()
+                            ? renderer->GetEnvironmentTexture()
+                            : nullptr;
+  if (texture != this->Environment) {
+    this->GetProperty()->RemoveTexture("environmentMap");
+    this->Environment = texture;
+    if (texture) {
+      this->GetProperty()->SetTexture("environmentMap", texture);
+    }
+  }
+  if (!texture) {
+    return;
+  }
+
+  // Its axes as the camera sees them.
+  double right[3], up[3], front[3];
+  std::copy_n(renderer->GetEnvironmentRight(), 3, right);
+  std::copy_n(renderer->GetEnvironmentUp(), 3, up);
+  vtkMath::Cross(right, up, front);
+  vtkCamera* camera = renderer->GetActiveCamera();
+  vtkMatrix4x4* toView = camera->GetViewTransformMatrix();
+  lambert::EnvironmentView view;
+  size_t entry = 0;
+  for (const double* axis : {right, up, front}) {
+    for (int column = 0; column < 3; ++column) {
+      double along = 0;
+      for (int k = 0; k < 3; ++k) {
+        along += toView->GetElement(column, k) * axis[k];
+      }
+      view.fromView[entry++] = static_cast<float>(along);
+    }
+  }
+  view.isParallel = camera->GetParallelProjection() != 0;
+  view.specularPower = static_cast<float>(this->GetProperty()->GetSpecularPower());
+  lambert::SetEnvironmentView(view, this->GetShaderProperty());
+}
+
 void vtkRadiosityActor::UpdateShader() {
   // What it is made of.
   const char* sampler = nullptr;
@@ -182,7 +234,11 @@ void vtkRadiosityActor::UpdateShader() {
   parts.baseTexture = base ? sampler : "";
   parts.isBaseEncoded = base && !base->GetUseSRGBColorSpace();
   parts.isPhysicallyBased = this->GetProperty()->GetInterpolation() == VTK_PBR;
+  parts.environment = this->Environment != nullptr;
+  parts.isEnvironmentEncoded = parts.environment && !this->Environment->GetUseSRGBColorSpace() &&
+                               this->Environment->GetColorMode() != VTK_COLOR_MODE_DIRECT_SCALARS;
   lambert::ReplaceDiffuseLight(parts, this->GetShaderProperty());
+  lambert::SetLightMapLevels(this->LightMapLevels(), this->GetShaderProperty());
 
   // Exposure.
   if (std::max(this->AppearanceTime.GetMTime(), this->ToneMapping->GetMTime()) >
@@ -194,6 +250,10 @@ void vtkRadiosityActor::UpdateShader() {
 }
 
 int vtkRadiosityActor::RenderOpaqueGeometry(vtkViewport* viewport) {
+  if (!this->Mesh) {
+    return 0;
+  }
+  this->UpdateEnvironment(vtkRenderer::SafeDownCast(viewport));
   return this->Update() ? this->Superclass::RenderOpaqueGeometry(viewport) : 0;
 }
 

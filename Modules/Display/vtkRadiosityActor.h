@@ -4,15 +4,18 @@
  *
  * Its data is a vtkPolyData of triangles as a radiosity method leaves it, lit by its points
  * (`Irradiance`, `Radiosity`), or as vtkRadiosityAtlas does, lit by the pages of a light map
- * (`LightMapTCoords`, `PageId`), or both kinds in one mesh: points whose LightMapTCoords lie
- * outside of [0, 1] are lit by themselves. All is drawn in one state, with neutral elements for
- * what a point has not got (thesis 6.5.1).
+ * (`LightMapTCoords`, `PageId`; `Atlas.Padding` tells how far mip maps may go), or both kinds in
+ * one mesh: points whose LightMapTCoords lie outside of [0, 1] are lit by themselves. All is drawn
+ * in one state, with neutral elements for what a point has not got (thesis 6.5.1).
  *
  * Shown is radiosity = emittance + reflectance x irradiance, linear, then tone mapped, plus the
  * specular part of the actor's vtkProperty under the renderer's lights: its ambient and diffuse
- * parts are left out, of physically based shading too. A texture of the actor (SetTexture, or the
- * base colour texture of physically based shading) takes the place of the reflectance at the
- * TCoords. Where cells have `Side`, back faces are culled: a lit back side has faces of its own.
+ * parts are left out, of physically based shading too. Where the renderer has an environment
+ * texture and image based lighting is on (vtkRenderer::SetEnvironmentTexture,
+ * UseImageBasedLightingOn), surfaces mirror it as their specular part tells, whatever their shading
+ * (thesis 6.5). A texture of the actor (SetTexture, or the base colour texture of physically based
+ * shading) takes the place of the reflectance at the TCoords. Where cells have `Side`, back faces
+ * are culled: a lit back side has faces of its own.
  */
 #ifndef vtkRadiosityActor_h
 #define vtkRadiosityActor_h
@@ -34,6 +37,7 @@ class vtkImageData;
 class vtkPolyData;
 class vtkPolyDataMapper;
 class vtkRadiosityToneMapping;
+class vtkRenderer;
 class vtkTexture;
 
 class LAMBERTDISPLAY_EXPORT vtkRadiosityActor : public vtkOpenGLActor {
@@ -81,6 +85,10 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityActor : public vtkOpenGLActor {
   void UpdateAppearance();
   void UpdateLightMap();
   void UpdateShader();
+  /// What surfaces mirror: the renderer's environment texture, where shading is not physically
+  /// based, which mirrors it by itself.
+  void UpdateEnvironment(vtkRenderer* renderer);
+  int LightMapLevels();
   /// The base texture, if any, and the name of its sampler.
   vtkTexture* BaseTexture(const char** sampler);
 
@@ -92,6 +100,7 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityActor : public vtkOpenGLActor {
   vtkSmartPointer<vtkPolyData> Drawn;  ///< the mesh with what its points bring
   vtkSmartPointer<vtkPolyDataMapper> LightMapper;
   vtkSmartPointer<vtkTexture> LightMapTexture;
+  vtkSmartPointer<vtkTexture> Environment;        ///< of the renderer, as it was last drawn in
   std::unique_ptr<lambert::LightImage> LightMap;  ///< the pages, one above the other
   std::vector<lambert::LuminanceSample> Samples;  ///< of what is shown
   std::unique_ptr<lambert::ToneMapping> Exposure;

@@ -6,9 +6,10 @@
 #include "vtkPolyData.h"
 
 namespace lambert {
-void WriteLightMap(const RadiosityAtlas& atlas, const Scene& scene, const std::string& fileName) {
+void WriteLightMap(const RadiosityAtlas& atlas, const Scene& scene, const ShownSides* shown,
+                   const std::string& fileName) {
   vtkNew<vtkPolyData> mesh;
-  PolyDataFromAtlas(atlas, scene, mesh);
+  PolyDataFromAtlas(atlas, scene, mesh, shown);
   WritePolyData(mesh, fileName);
 }
 

@@ -12,10 +12,10 @@
 #include <vector>
 
 namespace lambert {
-/// Writes NAME.vtp, the mesh of `scene` with LightMapTCoords, ChartId and PageId. Throws Error
-/// where the file cannot be written.
+/// Writes NAME.vtp, the mesh of `scene` with LightMapTCoords, ChartId and PageId; where it is
+/// that of `shown`, InputFaceId and Side. Throws Error where the file cannot be written.
 LAMBERTENGINE_EXPORT void WriteLightMap(const RadiosityAtlas& atlas, const Scene& scene,
-                                        const std::string& fileName);
+                                        const ShownSides* shown, const std::string& fileName);
 
 /// The same of a scene whose surfaces are lit by their points or by the light map: NAME.vtp has
 /// Irradiance at its points, and LightMapTCoords of (-1, -1) where these light.

@@ -2,6 +2,7 @@
 
 #include "Atlas/Core/ChartMesh.h"
 #include "Atlas/Core/RadiosityMap.h"
+#include "Atlas/Core/ShownSides.h"
 #include "Atlas/Core/SurfaceSubset.h"
 #include "Display/Core/DefaultCamera.h"
 #include "Display/Core/ToneMapping.h"

@@ -1,5 +1,6 @@
 #include "RadiosityRun.h"
 
+#include "Atlas/Core/TexelDensity.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Timer.h"
 #include "Scene/Core/SceneLimits.h"
@@ -201,7 +202,8 @@ void RadiosityRun::LayFlat(const ProgressCallback& progress) {
   }
   Timer timer;
   this->atlas_ =
-      MakeRadiosityAtlas(this->scene_.mesh, this->tree_, *this->options_.atlas, progress);
+      MakeRadiosityAtlas(this->LaidScene().mesh, this->shown_ ? this->shown_->tree : this->tree_,
+                         *this->options_.atlas, progress);
   this->AddStage("atlas", timer.Seconds());
 }
 
@@ -223,16 +225,30 @@ void RadiosityRun::Represent(const ProgressCallback& progress) {
   this->AddStage("light map", timer.Seconds());
 }
 
+RadiositySolution RadiosityRun::SolutionAsShown() const {
+  return this->shown_ ? OntoShownSides(this->solution_, this->shown_->inputFace, this->shown_->side)
+                      : this->solution_;
+}
+
 void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
   if (this->options_.atlas &&
       (this->options_.introducedTriangles || !this->options_.representations.empty())) {
     this->Represent(progress);
     return;
   }
+  this->shown_ = ShowBothSides(this->scene_.mesh, this->tree_, this->solution_);
+  if (this->shown_) {
+    this->shownScene_ = this->scene_;
+    this->shownScene_.mesh = this->shown_->mesh;
+  }
   this->LayFlat(
       [&](double fraction, const char* stage) { return Report(progress, 0.7 * fraction, stage); });
   Timer timer;
-  this->lightMap_ = MakeLightMap(this->scene_.mesh, this->atlas_, this->solution_,
+  const RadiositySolution solution = this->SolutionAsShown();
+  this->atlas_ = WithTexelDensity(
+      this->LaidScene().mesh, std::move(this->atlas_), solution, *this->options_.atlas,
+      [&](double, const char* stage) { return Report(progress, 0.7, stage); });
+  this->lightMap_ = MakeLightMap(this->LaidScene().mesh, this->atlas_, solution,
                                  [&](double fraction, const char* stage) {
                                    return Report(progress, 0.7 + 0.3 * fraction, stage);
                                  });
@@ -240,8 +256,8 @@ void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
 }
 
 void RadiosityRun::DrawModel(const LitModelOptions& options, const std::optional<Camera>& camera) {
-  this->model_ = this->lightMap_ ? MakeLitModel(this->scene_, this->solution_, this->atlas_,
-                                                *this->lightMap_, options)
+  this->model_ = this->lightMap_ ? MakeLitModel(this->LaidScene(), this->SolutionAsShown(),
+                                                this->atlas_, *this->lightMap_, options)
                                  : MakeLitModel(this->scene_, this->solution_, options);
   if (camera) {
     this->model_->camera = *camera;

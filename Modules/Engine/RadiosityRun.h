@@ -4,6 +4,7 @@
 
 #include "Atlas/Core/LightMap.h"
 #include "Atlas/Core/LitMeshSimplification.h"
+#include "Atlas/Core/ShownSides.h"
 #include "Atlas/Core/SurfaceRepresentation.h"
 #include "Clustering/Core/FaceClustering.h"
 #include "Common/Core/Progress.h"
@@ -62,8 +63,8 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   /// Error, Cancelled.
   void Solve(const ProgressCallback& progress = {}, const std::function<bool()>& interrupted = {},
              const std::function<void(const IterationRecord&)>& observer = {});
-  /// Lays the clustered scene flat. Throws Error where the options gave no atlas or charts do not
-  /// fit, Cancelled.
+  /// Lays the clustered scene flat, both sides of sheets where it is to be drawn. Throws Error
+  /// where the options gave no atlas or charts do not fit, Cancelled.
   void LayFlat(const ProgressCallback& progress = {});
   /// Lays the scene flat and draws the solution into its texels. Throws as LayFlat does.
   void DrawLightMap(const ProgressCallback& progress = {});
@@ -93,6 +94,10 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   }
   const std::optional<SolutionError>& RefinedError() const { return this->refinedError_; }
   const RadiosityAtlas& Atlas() const { return this->atlas_; }
+  /// Where a light map shows both sides of sheets: they, and the scene with them as surfaces of
+  /// their own, which the atlas is of; else there are none, and it is of the scene as it is.
+  const std::optional<ShownSides>& Shown() const { return this->shown_; }
+  const Scene& LaidScene() const { return this->shown_ ? this->shownScene_ : this->scene_; }
   /// Where surfaces are represented in both ways; Atlas() and DrawnLightMap() are then of those in
   /// the light map.
   const std::optional<RepresentedScene>& Represented() const { return this->represented_; }
@@ -109,6 +114,7 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
  private:
   /// Chooses how each surface shows its light, and draws the light map of those that it takes.
   void Represent(const ProgressCallback& progress);
+  RadiositySolution SolutionAsShown() const;
   void SolveByMethod(const ProgressCallback& progress,
                      const std::function<void(const IterationRecord&)>& observer);
 
@@ -122,6 +128,8 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   RadiositySolution solution_;
   std::optional<SolutionError> error_, refinedError_;
   std::optional<LitMeshSimplificationStatistics> simplification_;
+  std::optional<ShownSides> shown_;
+  Scene shownScene_;
   RadiosityAtlas atlas_;
   std::optional<LightMap> lightMap_;
   std::optional<RepresentedScene> represented_;

@@ -164,10 +164,12 @@ Json RepresentationJson(const RadiosityRun& run) {
   Json surfaces = Json::array();
   for (const size_t surface : order) {
     const SurfaceCost& cost = represented.surfaces[surface];
-    const auto material = static_cast<size_t>(mesh.materialId[faceOf[surface]]);
-    const auto part = static_cast<size_t>(mesh.partId[faceOf[surface]]);
+    const size_t face = faceOf[static_cast<size_t>(cost.surface)];
+    const auto material = static_cast<size_t>(mesh.materialId[face]);
+    const auto part = static_cast<size_t>(mesh.partId[face]);
     const bool isMapped = cost.chosen == Representation::LightMap;
-    surfaces.push_back({{"surface", surface},
+    surfaces.push_back({{"surface", cost.surface},
+                        {"side", cost.side == kFront ? "front" : "back"},
                         {"material", run.GetScene().materials[material].name},
                         {"part", run.GetScene().parts[part].name},
                         {"chosen", isMapped ? "lightmap" : "points"},

@@ -83,6 +83,13 @@ assert told["seam_points"] > 100
 assert told["seams_after"]["rms"] < 0.3 * told["seams_before"]["rms"]
 assert told["seams_after"]["largest"] <= told["seams_before"]["largest"]
 
+# Finer texels where light varies: another map of as many pages; of what it takes is told.
+followed = run("solve", *common, "--texel-density", "illumination", "--report", report)
+assert followed.returncode == 0, followed.stderr
+assert json.load(open(report))["light_map"]["pages"] == 1 and not np.array_equal(page_of(mapped.replace(".vtp", "-0.hdr")), page)
+for wrong in (["--lightmap", mapped, "--texel-density", "fine"], ["--texel-density", "uniform"]):
+    assert run("solve", CORNELL_BOX, "-o", solved, *wrong).returncode == 2, wrong
+
 # Options of the atlas ask for a light map; names are checked first.
 for wrong, code in ((["--page-size", "64"], 2), (["--page-format", "exr"], 2), (["--lightmap", mapped, "--page-format", "gif"], 2),
                     (["--lightmap", temporary("map.obj")], 2),

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "Atlas/Core/ChartMesh.h"
+#include "Atlas/Core/ShownSides.h"
 #include "Atlas/Core/TexelRaster.h"
 #include "Common/Core/Error.h"
 
@@ -18,8 +19,6 @@ namespace {
 constexpr double kStay = 0.1;
 constexpr double kSolverTolerance = 1e-6;
 constexpr int kMostSolverSteps = 1000;
-/// Parts of a face and of its coordinates by which a triangle may lie beside it: rounding.
-constexpr float kOnFace = 1e-5f;
 
 /// The four texels around a place and their parts of a lookup there.
 struct Footprint {
@@ -316,45 +315,7 @@ void CloseSeams(const std::vector<SeamPoint>& seams, double mean, LightMap* map)
   }
 }
 
-/// Throws Error where a triangle of the solution does not lie on its face: of another mesh, or of
-/// the same one in another order.
-void RequireSameFaces(const TriangleMesh& mesh, const RadiositySolution& solution) {
-  for (size_t t = 0; t < solution.inputFaceId.size(); ++t) {
-    const int64_t face = solution.inputFaceId[t];
-    if (face < 0 || face >= mesh.FaceCount()) {
-      throw Error("The solution lies on face " + std::to_string(face) + ", which the mesh lacks.");
-    }
-    Box3f bounds;
-    for (int c = 0; c < 3; ++c) bounds.Include(mesh.Corner(face, c));
-    Vec3f middle;
-    for (int c = 0; c < 3; ++c) middle += solution.mesh.Corner(int64_t(t), c) / 3.f;
-    const float slack = kOnFace * (bounds.Diagonal() + Length(middle));
-    const Vec3f below = bounds.low - middle, above = middle - bounds.high;
-    if (std::max({below.x, below.y, below.z, above.x, above.y, above.z}) > slack) {
-      throw Error("The solution is not of this mesh: triangle " + std::to_string(t) +
-                  " lies beside its face " + std::to_string(face) +
-                  "; cluster the faces before both solving and laying flat.");
-    }
-  }
-}
-
 }  // namespace
-
-std::vector<uint8_t> BrighterSidesOfSurfaces(const TriangleMesh& mesh,
-                                             const RadiositySolution& solution) {
-  std::vector<std::array<double, 2>> light;
-  for (size_t t = 0; t < solution.mesh.triangles.size(); ++t) {
-    const size_t surface = size_t(mesh.surfaceId[size_t(solution.inputFaceId[t])]);
-    if (surface >= light.size()) light.resize(surface + 1);
-    const double area = double(solution.mesh.Area(int64_t(t)));
-    for (const int32_t p : solution.mesh.triangles[t]) {
-      light[surface][solution.side[t]] += area * double(solution.irradiance[size_t(p)].Mean());
-    }
-  }
-  std::vector<uint8_t> sides(light.size());
-  for (size_t s = 0; s < light.size(); ++s) sides[s] = light[s][kBack] > light[s][kFront];
-  return sides;
-}
 
 LightMap MakeLightMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
                       const RadiositySolution& solution, const ProgressCallback& progress) {
@@ -400,6 +361,25 @@ LightMap MakeLightMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
     map.pages[page] = std::move(canvas.texels);
   }
   return map;
+}
+
+LightMap NextMipLevel(const LightMap& map) {
+  LightMap level;
+  level.pageSize = std::max(1, map.pageSize / 2);
+  const size_t size = size_t(map.pageSize), half = size_t(level.pageSize);
+  for (const std::vector<Spectrum>& page : map.pages) {
+    std::vector<Spectrum> texels(half * half);
+    for (size_t y = 0; y < half; ++y) {
+      for (size_t x = 0; x < half; ++x) {
+        const size_t right = std::min(size - 1, 2 * x + 1), above = std::min(size - 1, 2 * y + 1);
+        texels[y * half + x] = (page[2 * y * size + 2 * x] + page[2 * y * size + right] +
+                                page[above * size + 2 * x] + page[above * size + right]) *
+                               0.25f;
+      }
+    }
+    level.pages.push_back(std::move(texels));
+  }
+  return level;
 }
 
 Spectrum Lookup(const LightMap& map, int page, const Vec2f& textureCoords) {

@@ -29,14 +29,14 @@ struct LightMap {
 /// the atlas where it does not, then by what is near on the page (pull-push), so that mip maps
 /// take in nothing strange. Border texels are moved by least squares until bilinear lookups agree
 /// along the cuts. `mesh` is the solved mesh, in the order of the atlas. Of a surface that is lit
-/// on both sides the brighter is kept. Throws Error where the three do not belong together,
-/// Cancelled.
+/// on both sides the brighter is kept: ShownSides makes two surfaces of a sheet. Throws Error where
+/// the three do not belong together, Cancelled.
 LightMap MakeLightMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
                       const RadiositySolution& solution, const ProgressCallback& progress = {});
 
-/// Of every surface of `mesh` the side that shows in a light map, by mean irradiance.
-std::vector<uint8_t> BrighterSidesOfSurfaces(const TriangleMesh& mesh,
-                                             const RadiositySolution& solution);
+/// The next level of its mip map: pages of half the size, rounded down, each texel the mean of what
+/// it covers.
+LightMap NextMipLevel(const LightMap& map);
 
 /// Bilinear lookup between the middles of texels; texture coordinates in [0, 1], v upward.
 Spectrum Lookup(const LightMap& map, int page, const Vec2f& textureCoords);

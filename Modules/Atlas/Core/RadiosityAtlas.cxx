@@ -28,9 +28,11 @@ constexpr double kSafety = 0.99;
 constexpr int kMostPages = 256;
 /// Lookups between texels take in what lies half a texel around a place.
 constexpr double kHalfTexel = 0.5;
+/// Texels of a level that a lookup there takes in at most, to one side of its place.
+constexpr double kReach = 1.5;
 
 /// Texels that a chart may be long.
-double Room(const AtlasOptions& options) { return options.pageSize - 2 * options.padding - 2; }
+double Room(const AtlasOptions& options) { return options.pageSize - 2 * PaddingOf(options) - 2; }
 
 /// Texels a metre: those asked for, or as many as charts of `area`, m2, may fill the pages with.
 double FirstDensity(const AtlasOptions& options, double area) {
@@ -111,12 +113,12 @@ class Layout {
 
   /// Texels from the lower left corner of what the chart takes.
   Vec2d TexelsOf(size_t chart, const Vec2f& place, double density) const {
-    const double margin = options_.padding + kHalfTexel;
+    const double margin = PaddingOf(options_) + kHalfTexel;
     return rectangles_[chart].Inside(place) * density + Vec2d(margin, margin);
   }
   /// The texels that it takes in all.
   std::array<int, 2> Size(size_t chart, double density) const {
-    const double margin = 2 * (options_.padding + kHalfTexel);
+    const double margin = 2 * (PaddingOf(options_) + kHalfTexel);
     return {int(std::ceil(rectangles_[chart].width * density + margin)),
             int(std::ceil(rectangles_[chart].height * density + margin))};
   }
@@ -127,7 +129,7 @@ class Layout {
     const Chart& chart = set_.charts[index];
     const auto [width, height] = this->Size(index, density);
     ChartMask mask(width, height);
-    const double margin = options_.padding + kHalfTexel;
+    const double margin = PaddingOf(options_) + kHalfTexel;
     for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
       Vec2d p[3];
       for (size_t c = 0; c < 3; ++c) {
@@ -175,7 +177,10 @@ void RequireAtlasOptions(const AtlasOptions& options) {
   if (!(options.texelSize >= 0 && std::isfinite(options.texelSize))) {
     throw Error("The size of a texel is 0 m or more.");
   }
-  if (options.padding < 0 || options.padding > 64 || 4 * options.padding > options.pageSize) {
+  if (options.mipLevels < 0 || options.mipLevels > 5) {
+    throw Error("Charts are kept apart for 0 to 5 levels of mip maps.");
+  }
+  if (options.padding < 0 || options.padding > 64 || 4 * PaddingOf(options) > options.pageSize) {
     throw Error("The padding of a chart is 0 to 64 texels, and a quarter of a page at most.");
   }
 }
@@ -208,6 +213,11 @@ double FillPages(const Layout& layout, const AtlasOptions& options, Packing* pac
 }
 
 }  // namespace
+
+int PaddingOf(const AtlasOptions& options) {
+  if (options.mipLevels == 0) return options.padding;
+  return std::max(options.padding, int(std::ceil(kReach * std::exp2(options.mipLevels))));
+}
 
 ChartOptions ChartOptionsOf(const ClusterTree& tree, const AtlasOptions& options) {
   RequireAtlasOptions(options);
@@ -262,7 +272,7 @@ RadiosityAtlas PackAtlas(ChartSet set, const AtlasOptions& options,
   // Their places on the pages.
   atlas.pages = packing.pages;
   atlas.pageSize = options.pageSize;
-  atlas.padding = options.padding;
+  atlas.padding = PaddingOf(options);
   atlas.texelSize = density > 0 ? 1 / density : 0;
   atlas.pageOfChart.resize(atlas.set.charts.size());
   atlas.textureCoords.resize(atlas.set.places.size());

@@ -10,12 +10,22 @@
 
 namespace lambert {
 
+/// How many texels a metre charts have.
+enum class TexelDensity : uint8_t {
+  Uniform,      ///< all the same
+  Illumination  ///< by the error that the light map of even texels makes on them (thesis 9.3.1)
+};
+
 struct AtlasOptions {
   double stretch = 2;    ///< of a chart, as a factor, [1, inf)
   int pageSize = 1024;   ///< texels along a side, [16, 16384]
   int pages = 1;         ///< the budget, [1, inf); counts where `texelSize` is 0
   double texelSize = 0;  ///< m, [0, inf), on up to 256 pages; 0: what fills the pages
   int padding = 2;       ///< texels between a chart and the edge of what it takes, [0, 64]
+  /// Levels of mip maps above the pages themselves whose lookups inside charts take in nothing of
+  /// others, [0, 5]: the padding is 1.5 * 2^levels texels at least.
+  int mipLevels = 0;
+  TexelDensity density = TexelDensity::Uniform;  ///< counts where there is a solution to follow
 };
 
 struct RadiosityAtlas {
@@ -23,7 +33,7 @@ struct RadiosityAtlas {
   std::vector<int32_t> pageOfChart;                 ///< [0, pages)
   std::vector<std::array<Vec2f, 3>> textureCoords;  ///< by face: of its corners, [0, 1], v upward
   int pages = 0, pageSize = 0, padding = 0;
-  double texelSize = 0;    ///< m
+  double texelSize = 0;    ///< m; the mean where densities differ
   double utilisation = 0;  ///< area of the charts over that of the pages
   double chartSeconds = 0, packSeconds = 0;
 };
@@ -34,6 +44,9 @@ struct RadiosityAtlas {
 RadiosityAtlas MakeRadiosityAtlas(const TriangleMesh& mesh, const ClusterTree& tree,
                                   const AtlasOptions& options = {},
                                   const ProgressCallback& progress = {});
+
+/// Texels between a chart and the edge of what it takes: as asked for, and for the mip maps.
+int PaddingOf(const AtlasOptions& options);
 
 ///@{ Its two steps, for those who repeat one of them. The charts that the options ask for, to be
 /// cut

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "Atlas/Core/TexelDensity.h"
 #include "Common/Core/Error.h"
 
 namespace lambert {
@@ -100,13 +101,30 @@ std::vector<double> MapErrors(const RepresentedScene& scene) {
   return rms;
 }
 
-/// The triangles of a solution that lie on the brighter sides of its surfaces.
-RadiositySolution OnBrighterSides(const SurfaceSubset& subset) {
+/// That the surfaces in the light map cover.
+std::vector<double> TexelsOfSurfaces(const RepresentedScene& scene) {
+  std::vector<double> texels(scene.mapped.tree.surfaceRoots.size(), 0);
+  for (size_t face = 0; face < scene.atlas.textureCoords.size(); ++face) {
+    const auto& corners = scene.atlas.textureCoords[face];
+    const Vec2d u(corners[1] - corners[0]), v(corners[2] - corners[0]);
+    texels[size_t(scene.mapped.mesh.surfaceId[face])] +=
+        0.5 * std::abs(u.x * v.y - u.y * v.x) * scene.atlas.pageSize * scene.atlas.pageSize;
+  }
+  return texels;
+}
+
+/// The triangles of a solution that lie on the brighter sides of its surfaces; and the surface of
+/// each, as `rows` number them.
+RadiositySolution OnBrighterSides(const SurfaceSubset& subset, const std::vector<size_t>& rows,
+                                  std::vector<size_t>* rowOfTriangle) {
   const RadiositySolution& all = subset.solution;
   const std::vector<uint8_t> sides = BrighterSidesOfSurfaces(subset.mesh, all);
   std::vector<int64_t> triangles;
   for (size_t t = 0; t < all.inputFaceId.size(); ++t) {
-    if (all.side[t] == sides[SurfaceOf(subset.mesh, all, t)]) triangles.push_back(int64_t(t));
+    const size_t surface = SurfaceOf(subset.mesh, all, t);
+    if (all.side[t] != sides[surface]) continue;
+    triangles.push_back(int64_t(t));
+    rowOfTriangle->push_back(rows[surface]);
   }
   return TakeTriangles(all, triangles);
 }
@@ -138,6 +156,50 @@ void AppendMesh(const TriangleMesh& other, TriangleMesh* mesh) {
   Append(other.partId, &mesh->partId);
   Append(other.sourceCellId, &mesh->sourceCellId);
   mesh->surfaceId.clear();  // Those of the two are not the same.
+}
+
+/// Surfaces in their order, every one in its representation.
+RepresentedScene RepresentAsTheyAre(const TriangleMesh& mesh, const ClusterTree& tree,
+                                    const RadiositySolution& solution,
+                                    const RepresentationOptions& options,
+                                    const AtlasOptions& atlasOptions,
+                                    const ProgressCallback& progress) {
+  // Surface by surface.
+  RepresentedScene scene;
+  scene.surfaces = ChooseRepresentations(mesh, solution, options);
+  std::vector<char> isMapped, isLitByPoints;
+  std::vector<size_t> litByPoints;
+  for (size_t row = 0; row < scene.surfaces.size(); ++row) {
+    scene.surfaces[row].surface = int32_t(row);
+    isMapped.push_back(scene.surfaces[row].chosen == Representation::LightMap);
+    isLitByPoints.push_back(!isMapped.back());
+    if (!isMapped.back()) litByPoints.push_back(row);
+  }
+  scene.points = OnBrighterSides(TakeSurfaces(mesh, tree, solution, isLitByPoints), litByPoints,
+                                 &scene.rowOfPoints);
+
+  // The light map of those that it takes.
+  scene.mapped = TakeSurfaces(mesh, tree, solution, isMapped);
+  scene.atlas = MakeRadiosityAtlas(
+      scene.mapped.mesh, scene.mapped.tree, atlasOptions,
+      [&](double fraction, const char* stage) { return Report(progress, 0.7 * fraction, stage); });
+  scene.atlas = WithTexelDensity(
+      scene.mapped.mesh, std::move(scene.atlas), scene.mapped.solution, atlasOptions,
+      [&](double, const char* stage) { return Report(progress, 0.7, stage); });
+  scene.map = MakeLightMap(scene.mapped.mesh, scene.atlas, scene.mapped.solution,
+                           [&](double fraction, const char* stage) {
+                             return Report(progress, 0.7 + 0.3 * fraction, stage);
+                           });
+
+  // What it costs.
+  const std::vector<double> errors = MapErrors(scene), texels = TexelsOfSurfaces(scene);
+  size_t next = 0;
+  for (SurfaceCost& cost : scene.surfaces) {
+    if (cost.chosen != Representation::LightMap) continue;
+    cost.texels = texels[next];
+    cost.mapError = errors[next++];
+  }
+  return scene;
 }
 
 }  // namespace
@@ -192,33 +254,29 @@ RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& 
                                    const RepresentationOptions& options,
                                    const AtlasOptions& atlasOptions,
                                    const ProgressCallback& progress) {
-  // Surface by surface.
-  RepresentedScene scene;
-  scene.surfaces = ChooseRepresentations(mesh, solution, options);
-  std::vector<char> isMapped, isLitByPoints;
-  for (const SurfaceCost& cost : scene.surfaces) {
-    isMapped.push_back(cost.chosen == Representation::LightMap);
-    isLitByPoints.push_back(cost.chosen == Representation::Points);
+  const std::optional<ShownSides> shown = ShowBothSides(mesh, tree, solution);
+  if (!shown) return RepresentAsTheyAre(mesh, tree, solution, options, atlasOptions, progress);
+
+  // The sides of sheets as surfaces.
+  RadiositySolution onSides = OntoShownSides(solution, shown->inputFace, shown->side);
+  for (const int64_t point : shown->inputPoint) {
+    if (solution.inputIrradiance.empty()) break;
+    onSides.inputIrradiance.push_back(solution.inputIrradiance[size_t(point)]);
   }
-  scene.points = OnBrighterSides(TakeSurfaces(mesh, tree, solution, isLitByPoints));
+  RepresentationOptions ofSides = options;
+  if (options.wanted.size() == tree.surfaceRoots.size()) {
+    ofSides.wanted.clear();
+    for (const int32_t s : shown->inputSurface) ofSides.wanted.push_back(options.wanted[size_t(s)]);
+  }
+  RepresentedScene scene =
+      RepresentAsTheyAre(shown->mesh, shown->tree, onSides, ofSides, atlasOptions, progress);
 
-  // The light map of those that it takes.
-  scene.mapped = TakeSurfaces(mesh, tree, solution, isMapped);
-  scene.atlas = MakeRadiosityAtlas(
-      scene.mapped.mesh, scene.mapped.tree, atlasOptions,
-      [&](double fraction, const char* stage) { return Report(progress, 0.7 * fraction, stage); });
-  scene.map = MakeLightMap(scene.mapped.mesh, scene.atlas, scene.mapped.solution,
-                           [&](double fraction, const char* stage) {
-                             return Report(progress, 0.7 + 0.3 * fraction, stage);
-                           });
-
-  // What it costs.
-  const std::vector<double> errors = MapErrors(scene);
-  size_t next = 0;
-  for (SurfaceCost& cost : scene.surfaces) {
-    if (cost.chosen != Representation::LightMap) continue;
-    cost.texels = cost.area / (scene.atlas.texelSize * scene.atlas.texelSize);
-    cost.mapError = errors[next++];
+  // What they are of the solved mesh.
+  scene.hasSheets = true;
+  for (size_t s = 0; s < scene.surfaces.size(); ++s) {
+    const ClusterNode& root = shown->tree.nodes[size_t(shown->tree.surfaceRoots[s])];
+    scene.surfaces[s].surface = shown->inputSurface[s];
+    scene.surfaces[s].side = shown->side[size_t(root.firstFace)];
   }
   return scene;
 }
@@ -243,6 +301,15 @@ RepresentedMesh JoinRepresentations(const RepresentedScene& scene) {
   joined.lightMapCoords.resize(joined.mesh.positions.size(), Vec2f(-1, -1));
   joined.page.resize(joined.mesh.triangles.size(), 0);
   Append(scene.points.irradiance, &joined.irradiance);
+  if (!scene.hasSheets) return joined;
+
+  // The sides that they show.
+  std::vector<uint8_t> mappedSides;
+  for (const SurfaceCost& cost : scene.surfaces) {
+    if (cost.chosen == Representation::LightMap) mappedSides.push_back(cost.side);
+  }
+  for (const int32_t s : scene.mapped.mesh.surfaceId) joined.side.push_back(mappedSides[size_t(s)]);
+  for (const size_t row : scene.rowOfPoints) joined.side.push_back(scene.surfaces[row].side);
   return joined;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "Atlas/Core/LightMap.h"
+#include "Atlas/Core/ShownSides.h"
 #include "Atlas/Core/SurfaceSubset.h"
 #include "Scene/Core/Scene.h"
 
@@ -21,8 +22,8 @@ struct RepresentationOptions {
   std::vector<Representation> wanted;  ///< by surface; empty: all Automatic
 };
 
-/// What a surface costs either way. Errors are relative RMS of irradiance against the solution, by
-/// area.
+/// What a surface costs either way; of a sheet that is lit on both sides, a side of it. Errors are
+/// relative RMS of irradiance against the solution, by area.
 struct SurfaceCost {
   Representation chosen = Representation::Points;
   int64_t inputTriangles = 0;    ///< drawn with a light map
@@ -31,6 +32,8 @@ struct SurfaceCost {
   double texels = 0;             ///< that its area takes in the light map; 0: it is not in it
   double mapError = 0;           ///< of lookups in the light map; 0: it is not in it
   double inputPointError = 0;    ///< were the points of the input alone lit
+  int32_t surface = 0;           ///< of the solved mesh
+  uint8_t side = kFront;         ///< of its faces, which it shows
 
   int64_t Introduced() const {
     return refinedTriangles > inputTriangles ? refinedTriangles - inputTriangles : 0;
@@ -51,15 +54,17 @@ std::vector<SurfaceCost> ChooseRepresentations(const TriangleMesh& mesh,
 
 /// A solved scene, every surface in its representation.
 struct RepresentedScene {
-  std::vector<SurfaceCost> surfaces;  ///< of the solved mesh
+  std::vector<SurfaceCost> surfaces;  ///< of the solved mesh, then the second sides of its sheets
+  bool hasSheets = false;             ///< then faces are wound towards the side that they show
   SurfaceSubset mapped;               ///< in the light map
   RadiosityAtlas atlas;               ///< of mapped.mesh
   LightMap map;
-  RadiositySolution points;  ///< the brighter sides of the others
+  RadiositySolution points;         ///< the sides that show of the others
+  std::vector<size_t> rowOfPoints;  ///< by triangle of `points`: in `surfaces`
 };
 
 /// Chooses, lays flat and draws the light of what the light map takes. `mesh` is in the order of
-/// `tree`. Throws Error, Cancelled.
+/// `tree`. What is wanted of a surface is wanted of both sides of a sheet. Throws Error, Cancelled.
 RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& tree,
                                    const RadiositySolution& solution,
                                    const RepresentationOptions& options,
@@ -73,6 +78,7 @@ struct RepresentedMesh {
   std::vector<Vec2f> lightMapCoords;  ///< by point; (-1, -1): lit by its points
   std::vector<Spectrum> irradiance;   ///< by point, W/m2
   std::vector<int32_t> page;          ///< by face, of the light map; 0 where points light it
+  std::vector<uint8_t> side;          ///< by face: the side that it shows; empty without sheets
 };
 RepresentedMesh JoinRepresentations(const RepresentedScene& scene);
 

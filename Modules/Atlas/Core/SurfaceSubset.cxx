@@ -19,30 +19,34 @@ ClusterTree TakeTrees(const ClusterTree& tree, const std::vector<char>& isTaken,
   ClusterTree taken;
   for (size_t surface = 0; surface < tree.surfaceRoots.size(); ++surface) {
     if (!isTaken[surface]) continue;
-    const size_t first = size_t(tree.surfaceRoots[surface]);
-    const size_t end = surface + 1 < tree.surfaceRoots.size()
-                           ? size_t(tree.surfaceRoots[surface + 1])
-                           : tree.nodes.size();
-    const ClusterNode& root = tree.nodes[first];
-    const int32_t nodeShift = int32_t(taken.nodes.size()) - int32_t(first);
-    const int32_t faceShift = int32_t(faces->size()) - root.firstFace;
-    for (size_t node = first; node < end; ++node) {
-      ClusterNode moved = tree.nodes[node];
-      if (moved.parent >= 0) moved.parent += nodeShift;
-      if (moved.child >= 0) moved.child += nodeShift;
-      moved.firstFace += faceShift;
-      taken.nodes.push_back(moved);
-    }
+    const ClusterNode& root = tree.nodes[size_t(tree.surfaceRoots[surface])];
+    const int32_t number = int32_t(taken.surfaceRoots.size());
+    AppendTree(tree, surface, int32_t(faces->size()), &taken);
     for (int32_t face = root.firstFace; face < root.firstFace + root.faceCount; ++face) {
       faces->push_back(face);
-      surfaces->push_back(int32_t(taken.surfaceRoots.size()));
+      surfaces->push_back(number);
     }
-    taken.surfaceRoots.push_back(int32_t(first) + nodeShift);
   }
   return taken;
 }
 
 }  // namespace
+
+void AppendTree(const ClusterTree& tree, size_t surface, int32_t firstFace, ClusterTree* to) {
+  const size_t first = size_t(tree.surfaceRoots[surface]);
+  const size_t end = surface + 1 < tree.surfaceRoots.size() ? size_t(tree.surfaceRoots[surface + 1])
+                                                            : tree.nodes.size();
+  const int32_t nodeShift = int32_t(to->nodes.size()) - int32_t(first);
+  const int32_t faceShift = firstFace - tree.nodes[first].firstFace;
+  for (size_t node = first; node < end; ++node) {
+    ClusterNode moved = tree.nodes[node];
+    if (moved.parent >= 0) moved.parent += nodeShift;
+    if (moved.child >= 0) moved.child += nodeShift;
+    moved.firstFace += faceShift;
+    to->nodes.push_back(moved);
+  }
+  to->surfaceRoots.push_back(int32_t(first) + nodeShift);
+}
 
 TriangleMesh TakeFaces(const TriangleMesh& mesh, const std::vector<int64_t>& faces,
                        std::vector<int64_t>* points) {

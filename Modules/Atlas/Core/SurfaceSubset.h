@@ -20,6 +20,9 @@ struct SurfaceSubset {
 SurfaceSubset TakeSurfaces(const TriangleMesh& mesh, const ClusterTree& tree,
                            const RadiositySolution& solution, const std::vector<char>& isTaken);
 
+/// Puts the tree of a surface behind those of `to`, on faces from `firstFace` on.
+void AppendTree(const ClusterTree& tree, size_t surface, int32_t firstFace, ClusterTree* to);
+
 /// The faces of `mesh` that are named, in that order, with the points that they use.
 TriangleMesh TakeFaces(const TriangleMesh& mesh, const std::vector<int64_t>& faces,
                        std::vector<int64_t>* points = nullptr);

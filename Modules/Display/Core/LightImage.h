@@ -20,4 +20,13 @@ struct LightImage {
   }
 };
 
+/// The last level of a light map's mip map whose lookups inside charts take in no more than a
+/// hundredth of what others differ by, where `padding` texels lie about each: lookups reach 1.5
+/// texels of their level, and a texel less hardly shows. 0: the page itself.
+inline int SafeMipLevel(int padding) {
+  int level = 0;
+  while (3 << level <= padding + 1) ++level;
+  return level;
+}
+
 }  // namespace lambert

@@ -63,8 +63,13 @@ again.Update()
 assert again.GetNumberOfPages() > 1 and again.GetDeliveredTexelSize() == 0.01
 assert cells(again.GetOutput(), "PageId").max() + 1 == again.GetNumberOfPages()
 
+# Mip maps ask for padding.
+again.SetMipLevels(2)
+again.Update()
+assert again.GetOutput().GetFieldData().GetArray("Atlas.Padding").GetValue(0) == 6 and again.GetPadding() == 2
+
 # A wrong option, and texels too small for anyone, are told once and leave nothing.
-for change in (lambda a: a.SetStretch(0.5), lambda a: a.SetPages(0), lambda a: a.SetTexelSize(1e-6)):
+for change in (lambda a: a.SetStretch(0.5), lambda a: a.SetPages(0), lambda a: a.SetMipLevels(6), lambda a: a.SetTexelSize(1e-6)):
     wrong = lambert.vtkRadiosityAtlas()
     wrong.SetInputConnection(source.GetOutputPort())
     change(wrong)

@@ -121,4 +121,30 @@ for atlas_port, solution_port in ((atlas.GetOutputPort(), unordered.GetOutputPor
     wrong.AddObserver("ErrorEvent", lambda *_: told.append(1))
     wrong.Update()
     assert told and wrong.GetOutput().GetNumberOfBlocks() == 0
+
+# With the solution an atlas has both sides of a wall between two rooms, and is packed anew only where other sides are lit.
+reader.SetFileName(os.path.join(os.environ["LAMBERT_DATA_DIR"], "TwoRooms", "TwoRooms.obj"))
+atlas.SetSolutionConnection(solver.GetOutputPort(0))
+light_map.Update()
+cells = atlas.GetOutput().GetCellData()
+sides, faces = (vtk_to_numpy(cells.GetArray(name)) for name in ("Side", "InputFaceId"))
+both = np.flatnonzero(np.bincount(faces) == 2)
+assert len(both) > 100 and (np.bincount(faces, sides == 1)[both] == 1).all()
+cut = atlas.GetNumberOfSegmentations()
+solver.SetIterations(4)
+light_map.Update()
+assert atlas.GetNumberOfSegmentations() == cut
+uv = vtk_to_numpy(atlas.GetOutput().GetPointData().GetArray("LightMapTCoords"))
+corners = vtk_to_numpy(atlas.GetOutput().GetPolys().GetConnectivityArray()).reshape(-1, 3)
+column, row = (uv[corners].mean(axis=1) * 256).astype(int).T
+light, on_sheet = page()[row, column].mean(axis=1), np.isin(faces, both)
+dim, bright = sorted(light[on_sheet & (sides == side)].mean() for side in (0, 1))
+assert 0 < dim < 0.5 * bright, (dim, bright)
+
+# Texels follow the illumination where that is asked for; the charts are the same.
+assert atlas.GetTexelDensity() == atlas.UNIFORM
+atlas.SetTexelDensity(atlas.ILLUMINATION)
+light_map.Update()
+assert atlas.GetNumberOfSegmentations() == cut
+assert not np.array_equal(uv, vtk_to_numpy(atlas.GetOutput().GetPointData().GetArray("LightMapTCoords")))
 print("radiosity light map: passed")

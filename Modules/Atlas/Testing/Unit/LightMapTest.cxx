@@ -146,5 +146,58 @@ TEST(LightMap, NothingAndWhatDoesNotBelongTogether) {
   EXPECT_THROW(MakeLightMap(other.mesh, other.atlas, other.solution, cancel), Cancelled);
 }
 
+/// Squares of many sizes, no two in one plane, every second one ten times as bright.
+struct BrightAndDim : Lit {
+  explicit BrightAndDim(const AtlasOptions& options) : Lit(Squares(), options, LightOfSquare) {}
+
+  static TriangleMesh Squares() {
+    TriangleMesh mesh;
+    for (int i = 0; i < 60; ++i) {
+      const int32_t first = int32_t(mesh.positions.size());
+      const float size = 1 + float(i % 7);
+      for (const Vec3f& p : {Vec3f(0, 0, 0), Vec3f(1, 0, 0), Vec3f(1, 1, 0), Vec3f(0, 1, 0)}) {
+        mesh.positions.push_back(p * size + Vec3f(0, 0, float(i)));
+      }
+      mesh.triangles.push_back({first, first + 1, first + 2});
+      mesh.triangles.push_back({first, first + 2, first + 3});
+    }
+    mesh.Complete();
+    return mesh;
+  }
+  static Spectrum LightOfSquare(const Vec3f& p) { return Spectrum(int(p.z) % 2 ? 10.f : 1.f); }
+
+  /// The largest part of the light of its square by which a lookup inside one is off.
+  double LargestDeviation(const LightMap& level) const {
+    double largest = 0;
+    for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
+      const float own = LightOfSquare(mesh.Corner(face, 0)).r;
+      for (int i = 0; i <= 8; ++i) {
+        for (int j = 0; i + j <= 8; ++j) {
+          const float found = At(level, face, float(i) / 8, float(j) / 8).r;
+          largest = std::max(largest, double(std::abs(found - own) / own));
+        }
+      }
+    }
+    return largest;
+  }
+};
+
+TEST(LightMap, MipMapsTakeInNothingOfOtherCharts) {
+  for (const int levels : {0, 1, 2, 3}) {
+    AtlasOptions options = Pages(512);
+    options.mipLevels = levels;
+    const BrightAndDim squares(options);
+    ASSERT_EQ(squares.atlas.set.charts.size(), 60u);
+    LightMap map = squares.Map();
+    for (int level = 0; level <= levels; ++level) {
+      EXPECT_LT(squares.LargestDeviation(map), 1e-5) << level;
+      map = NextMipLevel(map);
+    }
+    // One level more takes in a neighbour; two texels lack one of what the first level needs.
+    EXPECT_GT(squares.LargestDeviation(map), 0.05);
+    EXPECT_LT(squares.LargestDeviation(map), levels == 0 ? 0.1 : 9);
+  }
+}
+
 }  // namespace
 }  // namespace lambert

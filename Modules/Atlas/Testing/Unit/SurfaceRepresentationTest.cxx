@@ -149,5 +149,48 @@ TEST(SurfaceRepresentation, RefusesOptionsThatDoNotFit) {
   EXPECT_THROW(ChooseRepresentations(unclustered, planes.solution, {}), Error);
 }
 
+// Two halves of a floor, of two materials, meet at x = 1; the light is smooth over both.
+TEST(SurfaceRepresentation, NeighboursOfBothKindsMeetWithoutAStep) {
+  TriangleMesh mesh;
+  const TriangleMesh half = FlatGrid(8);
+  for (const int32_t side : {0, 1}) {
+    const int32_t first = int32_t(mesh.positions.size());
+    for (const Vec3f& p : half.positions) {
+      mesh.positions.push_back(p + Vec3f(float(side), 0, 0));
+    }
+    for (const auto& t : half.triangles) {
+      mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+      mesh.materialId.push_back(side);
+    }
+  }
+  mesh.Complete();
+  const Clustered floor(mesh);
+  RadiositySolution solution;
+  solution.mesh = floor.mesh;
+  for (int64_t face = 0; face < floor.mesh.FaceCount(); ++face) {
+    solution.inputFaceId.push_back(face);
+    solution.side.push_back(kFront);
+  }
+  const auto light = [](const Vec3f& p) { return Spectrum(2 + p.x + p.y * p.y); };
+  for (const Vec3f& p : floor.mesh.positions) solution.irradiance.push_back(light(p));
+  RepresentationOptions options;
+  options.wanted = {Representation::Points, Representation::LightMap};
+  const RepresentedMesh joined =
+      JoinRepresentations(RepresentSurfaces(floor.mesh, floor.tree, solution, options, Page()));
+
+  // At the points of the border, by themselves and by lookups.
+  int byPoints = 0, byMap = 0;
+  double largest = 0;
+  for (size_t p = 0; p < joined.mesh.positions.size(); ++p) {
+    if (joined.mesh.positions[p].x != 1) continue;
+    const double wanted = double(light(joined.mesh.positions[p]).r);
+    largest = std::max(largest, std::abs(double(joined.irradiance[p].r) / wanted - 1));
+    ++(joined.lightMapCoords[p].x < 0 ? byPoints : byMap);
+  }
+  EXPECT_EQ(byPoints, 9);
+  EXPECT_GE(byMap, 9);
+  EXPECT_LT(largest, 0.003);  // Half a texel of 4 mm, of light that grows by a third a metre.
+}
+
 }  // namespace
 }  // namespace lambert

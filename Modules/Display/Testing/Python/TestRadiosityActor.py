@@ -54,8 +54,11 @@ def page(light, size=4):
     return image
 
 
-def draw(shown):
+def draw(shown, environment=None):
     renderer = vtkRenderer()
+    if environment:
+        renderer.UseImageBasedLightingOn()
+        renderer.SetEnvironmentTexture(environment)
     renderer.AddActor(shown)
     camera = renderer.GetActiveCamera()
     camera.SetPosition(0, 0, 3)
@@ -139,6 +142,48 @@ for shading in ("Phong", "PBR"):
     picture = draw(actor)
     assert (picture[SIZE // 2, SIZE // 2] - plain).min() > 20, shading
     assert np.abs(picture[SIZE // 2, 4] - plain).max() <= 4, shading  # the tail of the highlight
+
+# What lamps and surroundings bring besides goes with the specular part: of the surroundings, red before the mirror, under both
+# kinds of shading.
+surroundings = vtkImageData()
+surroundings.SetDimensions(64, 32, 1)
+surroundings.AllocateScalars(3, 3)  # 8 bits
+texels = vtk_to_numpy(surroundings.GetPointData().GetScalars()).reshape(32, 64, 3)
+texels[:] = 0
+texels[:, 32:, 0] = 200  # towards z, where the squares and the eye look at each other
+environment = vtkTexture()
+environment.SetInputData(surroundings)
+environment.InterpolateOn()
+environment.MipmapOn()
+seen = {}
+for shading in ("Phong", "PBR"):
+    for is_on in (False, True):
+        actor = lambert.vtkRadiosityActor()
+        actor.SetInputData(even)
+        surface = actor.GetProperty()
+        getattr(surface, "SetInterpolationTo" + shading)()
+        surface.SetSpecular(0.5)
+        surface.SetSpecularPower(200)
+        surface.SetRoughness(0.1)
+        surface.SetMetallic(1)
+        seen[shading, is_on] = draw(actor, environment if is_on else None)[SIZE // 2, 4]
+    added = seen[shading, True] - seen[shading, False]
+    assert added[0] > 40 and abs(added[1:]).max() <= 4, (shading, added)
+assert np.abs((seen["Phong", True] - seen["Phong", False])[0] - 0.5 * 200) <= 4, seen
+
+# A light map is averaged where its texels are smaller than pixels, as far as its charts lie apart.
+checks = page([0, 0, 0], 128)
+vtk_to_numpy(checks.GetPointData().GetScalars())[:] = 2 * (np.indices((128, 128)).sum(axis=0) % 2).reshape(-1, 1)
+flat = squares({"LightMapTCoords": [[0, 0], [1, 0], [1, 1], [0, 1]]}, {"LightMapTCoords": [[0, 0], [1, 0], [1, 1], [0, 1]]})
+spread = {}
+for padding in (0, 6):
+    flat.GetFieldData().AddArray(floats("Atlas.Padding", [padding]))
+    actor = lambert.vtkRadiosityActor()
+    actor.SetInputData(flat)
+    actor.AddLightMapPage(checks)
+    actor.GetToneMapping().SetCurveToLinear()
+    spread[padding] = draw(actor)[8:-8, 8:-8].std()
+assert spread[6] < 2 and spread[0] > 10, spread
 
 # Points without light are an error, and nothing is drawn.
 actor, errors = lambert.vtkRadiosityActor(), []

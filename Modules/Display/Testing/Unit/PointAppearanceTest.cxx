@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "Common/Core/Error.h"
 
@@ -106,6 +108,12 @@ TEST(PointAppearance, RefusesPointsWithoutLight) {
   EXPECT_THROW(MakePointAppearance(TwoTriangles(), light, false), Error);
   light.irradiance.resize(5);
   EXPECT_THROW(MakePointAppearance(TwoTriangles(), light, false), Error);
+}
+
+TEST(LightImage, MipMapsGoAsFarAsChartsLieApart) {
+  const std::vector<std::pair<int, int>> lastOfPadding = {{0, 0}, {1, 0}, {2, 1},  {4, 1},
+                                                          {5, 2}, {6, 2}, {11, 3}, {64, 5}};
+  for (const auto& [padding, last] : lastOfPadding) EXPECT_EQ(SafeMipLevel(padding), last);
 }
 
 }  // namespace
