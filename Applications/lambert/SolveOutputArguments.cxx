@@ -69,10 +69,15 @@ void AddFalseColorOptions(CLI::App* command, CLI::Option* image, SolveArguments*
 /// Which surfaces a light map takes.
 void AddTexelDensity(CLI::App* command, CLI::Option* lightMap, AtlasOptions* atlas) {
   command
-      ->add_option("--texel-density", atlas->density,
-                   "uniform, or illumination: finer texels where light varies, as many in all")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, TexelDensity>{
-          {"uniform", TexelDensity::Uniform}, {"illumination", TexelDensity::Illumination}}))
+      ->add_option_function<std::string>(
+          "--texel-density",
+          [=](const std::string& name) {
+            atlas->density =
+                name == "illumination" ? TexelDensity::Illumination : TexelDensity::Uniform;
+          },
+          "uniform, or illumination: finer texels where light varies, as many in all")
+      ->check(CLI::IsMember({"uniform", "illumination"}))
+      ->default_str("uniform")
       ->needs(lightMap);
 }
 

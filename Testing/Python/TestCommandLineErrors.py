@@ -31,6 +31,8 @@ for option in ("--sky", "--reflectance"):
 fails(2, "solve", CORNELL_BOX, "-o", out, "--size", "10.5x20", says=["--size"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--image", "picture.jpg", says=[".png"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--tone", "cubist", says=["--tone"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--lightmap", temporary("map.vtp"), "--texel-density", "fine",
+      says=["--texel-density", "{uniform,illumination}"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--up", "w", says=["--up"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--false-colors", "nit", says=["--false-colors"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--isolines", says=["--isolines", "--false-colors"])
