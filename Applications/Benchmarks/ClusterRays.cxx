@@ -66,7 +66,8 @@ ClusterRays::ClusterRays(const TriangleMesh& mesh, const ClusterTree& tree, Boxe
                          int facesOfLeaf)
     : mesh_(mesh) {
   std::vector<Box3f> ofSurfaces;
-  for (const int32_t root : tree.surfaceRoots) ofSurfaces.push_back(tree.nodes[size_t(root)].bounds);
+  for (const int32_t root : tree.surfaceRoots)
+    ofSurfaces.push_back(tree.nodes[size_t(root)].bounds);
   const std::vector<VolumeNode> volumes = ClusterVolumes(ofSurfaces);
   if (!volumes.empty()) this->AddVolume(volumes, 0, tree, facesOfLeaf, boxes);
 }

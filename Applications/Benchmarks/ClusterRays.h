@@ -31,7 +31,7 @@ class ClusterRays {
   };
   struct Node {
     Box3f bounds;
-    int32_t skip;  ///< the node to go on with where this one is missed
+    int32_t skip;                          ///< the node to go on with where this one is missed
     int32_t firstFace = 0, faceCount = 0;  ///< of a leaf
     int32_t oriented = -1;                 ///< its oriented box; -1: the bounds
   };

@@ -36,9 +36,9 @@ class Places {
   }
   Vec3f Pick(Random* random, Vec3f* normal) const {
     const double wanted = random->UniformDouble() * sums_.back();
-    const auto face = std::min<int64_t>(
-        int64_t(sums_.size()) - 1,
-        std::lower_bound(sums_.begin(), sums_.end(), wanted) - sums_.begin());
+    const auto face =
+        std::min<int64_t>(int64_t(sums_.size()) - 1,
+                          std::lower_bound(sums_.begin(), sums_.end(), wanted) - sums_.begin());
     *normal = mesh_.FrontNormal(face);
     const Vec2f b = UniformTriangle(random->Uniform(), random->Uniform());
     return PlaceOnTriangle(mesh_.Corner(face, 0), mesh_.Corner(face, 1), mesh_.Corner(face, 2), b);
@@ -65,7 +65,8 @@ std::vector<Ray> MakeRays(const TriangleMesh& mesh, int count, bool areSegments)
     Vec3f u, v;
     CoordinateSystem(normal, &u, &v);
     const Vec3f d = CosineHemisphere(random.Uniform(), random.Uniform());
-    rays.push_back({from, u * d.x + v * d.y + normal * d.z, std::numeric_limits<float>::infinity()});
+    rays.push_back(
+        {from, u * d.x + v * d.y + normal * d.z, std::numeric_limits<float>::infinity()});
   }
   return rays;
 }
@@ -98,7 +99,8 @@ void Run(const std::string& fileName, int count) {
   std::printf("array of boxes %.3f s, %.1f MB; ", timer.Seconds(), double(aligned.Bytes()) / 1e6);
   timer.Restart();
   const ClusterRays oriented(scene.mesh, tree, ClusterRays::Boxes::Oriented, kFacesOfLeaf);
-  std::printf("of oriented ones %.3f s, %.1f MB\n", timer.Seconds(), double(oriented.Bytes()) / 1e6);
+  std::printf("of oriented ones %.3f s, %.1f MB\n", timer.Seconds(),
+              double(oriented.Bytes()) / 1e6);
 
   const float skip = embree.Epsilon();
   std::printf("bounces\n");

@@ -62,7 +62,7 @@ class LAMBERTATLAS_EXPORT vtkRadiosityAtlas : public vtkPolyDataAlgorithm {
   ///@}
   enum Density { UNIFORM = 0, ILLUMINATION = 1 };
   ///@{ ILLUMINATION, with a solution: finer texels where the light map would be off by more, as
-  ///many
+  /// many
   /// in all. Default UNIFORM.
   void SetTexelDensity(int density);
   int GetTexelDensity();
