@@ -23,16 +23,9 @@ namespace lambert {
 namespace {
 using Names = vtkRadiosityArrays;
 
-/// An array that the output of vtkRadiosityAtlas has, a tuple for each of `count`.
 vtkDataArray* RequireArray(vtkFieldData* data, const char* name, int components, size_t count) {
-  vtkDataArray* array = data->GetArray(name);
-  if (!array || array->GetNumberOfComponents() != components ||
-      array->GetNumberOfTuples() != static_cast<vtkIdType>(count)) {
-    throw Error(std::string("The mesh has no array ") + name + " of " + std::to_string(components) +
-                (components == 1 ? " component" : " components") +
-                "; it takes the output of vtkRadiosityAtlas.");
-  }
-  return array;
+  return lambert::RequireArray(data, name, components, count, "mesh",
+                               "the output of vtkRadiosityAtlas");
 }
 
 /// Charts and their pages. Their faces stand together, in the order of their numbers.

@@ -46,19 +46,8 @@ lambertOptionMacro(vtkRadiosityAtlas, Pages, int, pages);
 lambertOptionMacro(vtkRadiosityAtlas, TexelSize, double, texelSize);
 lambertOptionMacro(vtkRadiosityAtlas, Padding, int, padding);
 lambertOptionMacro(vtkRadiosityAtlas, MipLevels, int, mipLevels);
-
-void vtkRadiosityAtlas::SetTexelDensity(int density) {
-  if (density < UNIFORM || density > ILLUMINATION) {
-    vtkErrorMacro(<< "The density of texels is UNIFORM or ILLUMINATION, not " << density << ".");
-    return;
-  }
-  if (this->GetTexelDensity() != density) {
-    this->Options->density = static_cast<lambert::TexelDensity>(density);
-    this->Modified();
-  }
-}
-
-int vtkRadiosityAtlas::GetTexelDensity() { return static_cast<int>(this->Options->density); }
+lambertChoiceMacro(vtkRadiosityAtlas, TexelDensity, lambert::TexelDensity, density, ILLUMINATION,
+                   "The density of texels is UNIFORM or ILLUMINATION");
 
 void vtkRadiosityAtlas::TakeIn(vtkPolyData* mesh, vtkTable* tree, const Progress& progress) {
   const bool hasTree = tree && tree->GetNumberOfRows() > 0;
@@ -78,8 +67,7 @@ void vtkRadiosityAtlas::TakeIn(vtkPolyData* mesh, vtkTable* tree, const Progress
   ++this->NumberOfReadings;
 }
 
-void vtkRadiosityAtlas::FindSides(vtkPolyData* solution) {
-  const vtkMTimeType time = solution ? solution->GetMTime() : 0;
+void vtkRadiosityAtlas::FindSides(const lambert::RadiositySolution* solution, vtkMTimeType time) {
   Kept& last = *this->Last;
   if (last.SolutionTime == time) {
     return;
@@ -87,8 +75,7 @@ void vtkRadiosityAtlas::FindSides(vtkPolyData* solution) {
   last.SolutionTime = time;
   std::optional<lambert::ShownSides> shown;
   if (solution) {
-    shown =
-        lambert::ShowBothSides(last.Scene.mesh, last.Tree, lambert::SolutionFromPolyData(solution));
+    shown = lambert::ShowBothSides(last.Scene.mesh, last.Tree, *solution);
   }
   const bool areSame = shown ? last.Shown && shown->inputFace == last.Shown->inputFace &&
                                    shown->side == last.Shown->side
@@ -104,7 +91,12 @@ int vtkRadiosityAtlas::RequestData(vtkInformation*, vtkInformationVector** input
   return lambert::RunCore(this, [&](const lambert::ProgressCallback& progress) {
     // Faces and charts, where they are not those of the last run.
     this->TakeIn(vtkPolyData::GetData(inputs[0]), vtkTable::GetData(inputs[1]), progress);
-    this->FindSides(vtkPolyData::GetData(inputs[2]));
+    vtkPolyData* solved = vtkPolyData::GetData(inputs[2]);
+    std::optional<lambert::RadiositySolution> solution;
+    if (solved) {
+      solution = lambert::SolutionFromPolyData(solved);
+    }
+    this->FindSides(solution ? &*solution : nullptr, solved ? solved->GetMTime() : 0);
     Kept& last = *this->Last;
     const lambert::ClusterTree& tree = last.Shown ? last.Shown->tree : last.Tree;
     const lambert::TriangleMesh& mesh = last.Shown ? last.Shown->mesh : last.Scene.mesh;
@@ -116,14 +108,13 @@ int vtkRadiosityAtlas::RequestData(vtkInformation*, vtkInformationVector** input
 
     // Their places.
     lambert::RadiosityAtlas atlas = lambert::PackAtlas(last.Charts, *this->Options, progress);
-    if (vtkPolyData* solved = vtkPolyData::GetData(inputs[2])) {
-      lambert::RadiositySolution solution = lambert::SolutionFromPolyData(solved);
+    if (solution) {
       if (last.Shown) {
         solution =
-            lambert::OntoShownSides(std::move(solution), last.Shown->inputFace, last.Shown->side);
+            lambert::OntoShownSides(*std::move(solution), last.Shown->inputFace, last.Shown->side);
       }
       atlas = lambert::WithTexelDensity(
-          mesh, std::move(atlas), solution, *this->Options,
+          mesh, std::move(atlas), *solution, *this->Options,
           [&](double, const char* stage) { return lambert::Report(progress, 1, stage); });
     }
     ++this->NumberOfPackings;

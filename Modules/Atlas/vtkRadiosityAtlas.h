@@ -24,8 +24,9 @@
 #include <memory>      // for the options
 
 namespace lambert {
+struct RadiositySolution;
 struct AtlasOptions;
-}
+}  // namespace lambert
 
 class vtkTable;
 
@@ -102,7 +103,7 @@ class LAMBERTATLAS_EXPORT vtkRadiosityAtlas : public vtkPolyDataAlgorithm {
   using Progress = std::function<bool(double fraction, const char* stage)>;
   void TakeIn(vtkPolyData* mesh, vtkTable* tree, const Progress& progress);
   /// The sides that the charts are of; where they are others than before, charts are cut anew.
-  void FindSides(vtkPolyData* solution);
+  void FindSides(const lambert::RadiositySolution* solution, vtkMTimeType time);
 
   std::unique_ptr<lambert::AtlasOptions> Options;
   std::unique_ptr<Kept> Last;  ///< what the last run made

@@ -54,21 +54,8 @@ lambertOptionMacro(vtkSurfaceRepresentation, Pages, int, Atlas.pages);
 lambertOptionMacro(vtkSurfaceRepresentation, TexelSize, double, Atlas.texelSize);
 lambertOptionMacro(vtkSurfaceRepresentation, Padding, int, Atlas.padding);
 lambertOptionMacro(vtkSurfaceRepresentation, MipLevels, int, Atlas.mipLevels);
-
-void vtkSurfaceRepresentation::SetTexelDensity(int density) {
-  if (density < UNIFORM || density > ILLUMINATION) {
-    vtkErrorMacro(<< "The density of texels is UNIFORM or ILLUMINATION, not " << density << ".");
-    return;
-  }
-  if (this->GetTexelDensity() != density) {
-    this->Options->Atlas.density = static_cast<lambert::TexelDensity>(density);
-    this->Modified();
-  }
-}
-
-int vtkSurfaceRepresentation::GetTexelDensity() {
-  return static_cast<int>(this->Options->Atlas.density);
-}
+lambertChoiceMacro(vtkSurfaceRepresentation, TexelDensity, lambert::TexelDensity, Atlas.density,
+                   ILLUMINATION, "The density of texels is UNIFORM or ILLUMINATION");
 
 void vtkSurfaceRepresentation::SetRepresentation(const std::string& material, int kind) {
   if (kind < AUTOMATIC || kind > LIGHT_MAP) {

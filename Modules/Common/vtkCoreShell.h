@@ -19,6 +19,21 @@
   }                                                    \
   type filter::Get##name() { return this->Options->member; }
 
+/// The same for a choice of the enumeration `type`, 0 to `last` as an int; any other is refused by
+/// the sentence "`expected`, not N.".
+#define lambertChoiceMacro(filter, name, type, member, last, expected) \
+  void filter::Set##name(int value) {                                  \
+    if (value < 0 || value > static_cast<int>(last)) {                 \
+      vtkErrorMacro(<< expected << ", not " << value << ".");          \
+      return;                                                          \
+    }                                                                  \
+    if (this->Get##name() != value) {                                  \
+      this->Options->member = static_cast<type>(value);                \
+      this->Modified();                                                \
+    }                                                                  \
+  }                                                                    \
+  int filter::Get##name() { return static_cast<int>(this->Options->member); }
+
 namespace lambert {
 /// Shows the progress of `filter`; false where it is to be aborted.
 inline ProgressCallback ProgressOf(vtkAlgorithm* filter) {

@@ -3,6 +3,7 @@
 #define vtkValueArrays_h
 
 #include "Common/Core/Error.h"
+#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkSmartPointer.h"
 
@@ -49,6 +50,20 @@ vtkSmartPointer<vtkFloatArray> ArrayFromTuples(const char* name, const std::vect
   array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()));
   if (!values.empty()) {
     std::memcpy(array->GetPointer(0), values.data(), values.size() * sizeof(T));
+  }
+  return array;
+}
+
+/// An array that `data` of a `holder` ("mesh", "solution") must have, a tuple for each of `count`.
+/// Throws Error where it has not, and says what `source` makes it.
+inline vtkDataArray* RequireArray(vtkFieldData* data, const char* name, int components,
+                                  size_t count, const std::string& holder,
+                                  const std::string& source) {
+  vtkDataArray* array = data->GetArray(name);
+  if (!array || array->GetNumberOfComponents() != components ||
+      array->GetNumberOfTuples() != static_cast<vtkIdType>(count)) {
+    throw Error("The " + holder + " has no array " + name + " of " + std::to_string(components) +
+                (components == 1 ? " component" : " components") + "; it takes " + source + ".");
   }
   return array;
 }

@@ -1,6 +1,7 @@
 #include "vtkRadiosityImageWriter.h"
 
 #include "Common/Core/Error.h"
+#include "Common/Core/OutputFile.h"
 #include "Display/Core/DefaultCamera.h"
 #include "Display/Core/ToneMapping.h"
 #include "FalseColorPicture.h"
@@ -29,7 +30,6 @@
 #include <X11/Xlib.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 
 vtkStandardNewMacro(vtkRadiosityImageWriter);
@@ -224,11 +224,13 @@ void vtkRadiosityImageWriter::WriteImage(vtkImageData* image) {
   writer->WriteToMemoryOn();
   writer->Write();
   vtkUnsignedCharArray* png = writer->GetResult();
-  std::ofstream file(this->FileName, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(png->GetPointer(0)), png->GetNumberOfValues());
-  if (!file.flush()) {
+  try {
+    lambert::WriteOutput(this->FileName,
+                         std::string(reinterpret_cast<const char*>(png->GetPointer(0)),
+                                     static_cast<size_t>(png->GetNumberOfValues())));
+  } catch (const lambert::Error&) {
     this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
-    throw lambert::Error(std::string("The picture ") + this->FileName + " could not be written.");
+    throw;
   }
 }
 

@@ -59,17 +59,9 @@ void CoverIds(const std::vector<int32_t>& ids, const char* name, std::vector<Row
   table->resize(std::max({table->size(), rows, size_t{1}}));
 }
 
-/// An array that a solution must have, a tuple for each of `count` points or cells.
-vtkDataArray* RequireArray(vtkDataSetAttributes* data, const char* name, int components,
-                           size_t count) {
-  vtkDataArray* array = data->GetArray(name);
-  if (!array || array->GetNumberOfComponents() != components ||
-      array->GetNumberOfTuples() != static_cast<vtkIdType>(count)) {
-    throw Error(std::string("The solution has no array ") + name + " of " +
-                std::to_string(components) + (components == 1 ? " component" : " components") +
-                "; it takes output port 0 of a radiosity method.");
-  }
-  return array;
+vtkDataArray* RequireArray(vtkFieldData* data, const char* name, int components, size_t count) {
+  return lambert::RequireArray(data, name, components, count, "solution",
+                               "output port 0 of a radiosity method");
 }
 }  // namespace
 

@@ -8,9 +8,8 @@
 #include <stb_image_write.h>
 
 #include <filesystem>
-#include <fstream>
 
-#include "Common/Core/Error.h"
+#include "Common/Core/OutputFile.h"
 
 namespace lambert {
 
@@ -40,45 +39,38 @@ void WriteExr(const std::string& name, int size, std::vector<Spectrum> rows) {
     bands.insert(names[band], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(&rows[0][band]),
                                          sizeof(Spectrum), sizeof(Spectrum) * size_t(size)));
   }
-  Imf::OutputFile file(name.c_str(), header);
-  file.setFrameBuffer(bands);
-  file.writePixels(size);
+  try {
+    Imf::OutputFile file(name.c_str(), header);
+    file.setFrameBuffer(bands);
+    file.writePixels(size);
+  } catch (const std::exception&) {
+    FailToWrite(name);  // The library's sentence names its own insides.
+  }
 }
 
-/// What stb makes, to a file.
-class BytesOfImage {
- public:
-  static void Append(void* self, void* bytes, int size) {
-    auto& all = static_cast<BytesOfImage*>(self)->bytes_;
-    all.append(static_cast<const char*>(bytes), size_t(size));
-  }
-  bool Write(const std::string& name) const {
-    std::ofstream file(name, std::ios::binary);
-    file.write(bytes_.data(), std::streamsize(bytes_.size()));
-    return bool(file.flush());
-  }
+/// Takes what stb makes.
+void Append(void* bytes, void* more, int size) {
+  static_cast<std::string*>(bytes)->append(static_cast<const char*>(more), size_t(size));
+}
 
- private:
-  std::string bytes_;
-};
-
-bool WritePng(const std::string& name, int size, const std::vector<Spectrum>& rows,
+void WritePng(const std::string& name, int size, const std::vector<Spectrum>& rows,
               const TexelCodes& codes) {
-  std::vector<uint8_t> bytes;
-  bytes.reserve(rows.size() * 3);
+  std::vector<uint8_t> texels;
+  texels.reserve(rows.size() * 3);
   for (const Spectrum& texel : rows) {
-    for (const uint8_t code : codes(texel)) bytes.push_back(code);
+    for (const uint8_t code : codes(texel)) texels.push_back(code);
   }
-  BytesOfImage png;
-  return stbi_write_png_to_func(BytesOfImage::Append, &png, size, size, 3, bytes.data(),
-                                3 * size) &&
-         png.Write(name);
+  std::string png;
+  if (!stbi_write_png_to_func(Append, &png, size, size, 3, texels.data(), 3 * size)) {
+    FailToWrite(name);
+  }
+  WriteOutput(name, png);
 }
 
-bool WriteHdr(const std::string& name, int size, const std::vector<Spectrum>& rows) {
-  BytesOfImage hdr;
-  return stbi_write_hdr_to_func(BytesOfImage::Append, &hdr, size, size, 3, &rows[0].r) &&
-         hdr.Write(name);
+void WriteHdr(const std::string& name, int size, const std::vector<Spectrum>& rows) {
+  std::string hdr;
+  if (!stbi_write_hdr_to_func(Append, &hdr, size, size, 3, &rows[0].r)) FailToWrite(name);
+  WriteOutput(name, hdr);
 }
 
 const char* EndingOf(PageFormat format) {
@@ -104,15 +96,9 @@ void WriteLightMapPages(const LightMap& map, const std::string& fileName, PageFo
   const std::vector<std::string> names = LightMapPageNames(fileName, int(map.pages.size()), format);
   for (size_t page = 0; page < names.size(); ++page) {
     std::vector<Spectrum> rows = RowsFromAbove(map.pages[page], size_t(map.pageSize));
-    bool isWritten = true;
-    try {
-      if (format == PageFormat::Exr) WriteExr(names[page], map.pageSize, std::move(rows));
-      if (format == PageFormat::Hdr) isWritten = WriteHdr(names[page], map.pageSize, rows);
-      if (format == PageFormat::Png) isWritten = WritePng(names[page], map.pageSize, rows, codes);
-    } catch (const std::exception&) {
-      isWritten = false;  // The library's sentence names its own insides.
-    }
-    if (!isWritten) throw Error("The page " + names[page] + " could not be written.");
+    if (format == PageFormat::Exr) WriteExr(names[page], map.pageSize, std::move(rows));
+    if (format == PageFormat::Hdr) WriteHdr(names[page], map.pageSize, rows);
+    if (format == PageFormat::Png) WritePng(names[page], map.pageSize, rows, codes);
   }
 }
 

@@ -17,6 +17,21 @@ struct Clustered {
   }
 };
 
+/// Two flat grids of `cells` across, one 5 m above the other.
+inline TriangleMesh TwoFlatGrids(int cells) {
+  TriangleMesh mesh;
+  const TriangleMesh plane = FlatGrid(cells);
+  for (const float height : {0.f, 5.f}) {
+    const int32_t first = int32_t(mesh.positions.size());
+    for (const Vec3f& p : plane.positions) mesh.positions.push_back(p + Vec3f(0, 0, height));
+    for (const auto& t : plane.triangles) {
+      mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+  }
+  mesh.Complete();
+  return mesh;
+}
+
 /// All of a mesh as one chart.
 inline ChartMesh WholeChart(TriangleMesh mesh) {
   mesh.surfaceId.assign(mesh.triangles.size(), 0);

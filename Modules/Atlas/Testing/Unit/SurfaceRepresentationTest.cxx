@@ -23,15 +23,7 @@ struct TwoPlanes {
   RadiositySolution solution;
 
   explicit TwoPlanes(int depth) {
-    const TriangleMesh plane = FlatGrid(4);
-    for (const float height : {0.f, 5.f}) {
-      const int32_t first = int32_t(mesh.positions.size());
-      for (const Vec3f& p : plane.positions) mesh.positions.push_back(p + Vec3f(0, 0, height));
-      for (const auto& t : plane.triangles) {
-        mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-      }
-    }
-    mesh.Complete();
+    mesh = TwoFlatGrids(4);
     tree = ClusterFaces(&mesh, {});
     for (const Vec3f& p : mesh.positions) solution.inputIrradiance.push_back(Strip(p));
     for (int64_t face = 0; face < mesh.FaceCount(); ++face) {

@@ -13,7 +13,7 @@ namespace {
 struct EvenAndWaves : Clustered {
   RadiositySolution solution;
 
-  EvenAndWaves() : Clustered(Planes()) {
+  EvenAndWaves() : Clustered(TwoFlatGrids(20)) {
     solution.mesh = mesh;
     for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
       solution.inputFaceId.push_back(face);
@@ -22,19 +22,6 @@ struct EvenAndWaves : Clustered {
     for (const Vec3f& p : mesh.positions) {
       solution.irradiance.push_back(Spectrum(p.z > 1 ? 5 : 5 + 4 * std::sin(30 * p.x)));
     }
-  }
-  static TriangleMesh Planes() {
-    TriangleMesh mesh;
-    const TriangleMesh plane = FlatGrid(20);
-    for (const float height : {0.f, 5.f}) {
-      const int32_t first = int32_t(mesh.positions.size());
-      for (const Vec3f& p : plane.positions) mesh.positions.push_back(p + Vec3f(0, 0, height));
-      for (const auto& t : plane.triangles) {
-        mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-      }
-    }
-    mesh.Complete();
-    return mesh;
   }
 
   RadiosityAtlas Atlas(TexelDensity density) const {
