@@ -331,6 +331,23 @@ std::vector<Vec2f> SplitAtCharts(const RadiosityAtlas& atlas, TriangleMesh* mesh
   return textureCoords;
 }
 
+std::array<float, 3> WeightsInFace(const TriangleMesh& mesh, int64_t face, const Vec3f& place) {
+  const Vec3d p(place), a(mesh.Corner(face, 0)), b(mesh.Corner(face, 1)), c(mesh.Corner(face, 2));
+  const Vec3d normal = Cross(b - a, c - a);
+  const double square = Dot(normal, normal);
+  if (!(square > 0)) return {1, 0, 0};
+  const double atB = Dot(Cross(p - a, c - a), normal) / square;
+  const double atC = Dot(Cross(b - a, p - a), normal) / square;
+  return {float(1 - atB - atC), float(atB), float(atC)};
+}
+
+Vec2f PlaceOnPage(const TriangleMesh& mesh, const RadiosityAtlas& atlas, int64_t face,
+                  const Vec3f& place) {
+  const std::array<float, 3> w = WeightsInFace(mesh, face, place);
+  const auto& corners = atlas.textureCoords[size_t(face)];
+  return corners[0] * w[0] + corners[1] * w[1] + corners[2] * w[2];
+}
+
 std::vector<int32_t> FacesOfTexels(const RadiosityAtlas& atlas, int page) {
   const int size = atlas.pageSize;
   std::vector<int32_t> faces(size_t(size) * size_t(size), -1);

@@ -62,6 +62,12 @@ RadiosityAtlas PackAtlas(ChartSet set, const AtlasOptions& options,
 std::vector<Vec2f> SplitAtCharts(const RadiosityAtlas& atlas, TriangleMesh* mesh,
                                  std::vector<int64_t>* points = nullptr);
 
+/// Weights of the corners of a face at a place in its plane; all of the first where it has no area.
+std::array<float, 3> WeightsInFace(const TriangleMesh& mesh, int64_t face, const Vec3f& place);
+/// Texture coordinates of such a place, [0, 1].
+Vec2f PlaceOnPage(const TriangleMesh& mesh, const RadiosityAtlas& atlas, int64_t face,
+                  const Vec3f& place);
+
 /// By texel of a page, row after row from below: the face that holds its middle; -1 where none
 /// does.
 std::vector<int32_t> FacesOfTexels(const RadiosityAtlas& atlas, int page);

@@ -21,17 +21,6 @@ struct ErrorSum {
   double Rms() const { return light > 0 ? std::sqrt(squares / light) : 0; }
 };
 
-/// Of a place in the plane of a face, for its three corners.
-std::array<float, 3> Barycentrics(const TriangleMesh& mesh, int64_t face, const Vec3f& place) {
-  const Vec3d p(place), a(mesh.Corner(face, 0)), b(mesh.Corner(face, 1)), c(mesh.Corner(face, 2));
-  const Vec3d normal = Cross(b - a, c - a);
-  const double square = Dot(normal, normal);
-  if (!(square > 0)) return {1, 0, 0};
-  const double atB = Dot(Cross(p - a, c - a), normal) / square;
-  const double atC = Dot(Cross(b - a, p - a), normal) / square;
-  return {float(1 - atB - atC), float(atB), float(atC)};
-}
-
 Vec3f Middle(const TriangleMesh& mesh, int64_t face) {
   return (mesh.Corner(face, 0) + mesh.Corner(face, 1) + mesh.Corner(face, 2)) / 3.f;
 }
@@ -65,7 +54,7 @@ std::vector<SurfaceCost> MeasureSurfaces(const TriangleMesh& mesh,
     ++costs[surface].refinedTriangles;
     if (solution.inputIrradiance.empty()) continue;
     const int64_t face = solution.inputFaceId[t];
-    const auto w = Barycentrics(mesh, face, Middle(solution.mesh, int64_t(t)));
+    const auto w = WeightsInFace(mesh, face, Middle(solution.mesh, int64_t(t)));
     Spectrum atPoints;
     for (size_t c = 0; c < 3; ++c) {
       atPoints += solution.inputIrradiance[size_t(mesh.triangles[size_t(face)][c])] * w[c];
@@ -88,9 +77,7 @@ std::vector<double> MapErrors(const RepresentedScene& scene) {
     const size_t surface = SurfaceOf(mesh, solution, t);
     if (solution.side[t] != sides[surface]) continue;
     const int64_t face = solution.inputFaceId[t];
-    const auto w = Barycentrics(mesh, face, Middle(solution.mesh, int64_t(t)));
-    const auto& corners = scene.atlas.textureCoords[size_t(face)];
-    const Vec2f place = corners[0] * w[0] + corners[1] * w[1] + corners[2] * w[2];
+    const Vec2f place = PlaceOnPage(mesh, scene.atlas, face, Middle(solution.mesh, int64_t(t)));
     const int page = scene.atlas.pageOfChart[size_t(chartOfFace[size_t(face)])];
     errors[surface].Add(Lookup(scene.map, page, place),
                         MeanOverCorners(solution.irradiance, solution.mesh, t),

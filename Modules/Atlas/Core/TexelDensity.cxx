@@ -32,19 +32,6 @@ T Blend(const std::vector<T>& values, const std::array<int32_t, 3>& corners,
          values[size_t(corners[2])] * w[2];
 }
 
-/// Texture coordinates of a place in a face.
-Vec2f PlaceOnPage(const TriangleMesh& mesh, const RadiosityAtlas& atlas, int64_t face,
-                  const Vec3f& place) {
-  const Vec3d p(place), a(mesh.Corner(face, 0)), b(mesh.Corner(face, 1)), c(mesh.Corner(face, 2));
-  const Vec3d normal = Cross(b - a, c - a);
-  const double square = Dot(normal, normal);
-  const auto& corners = atlas.textureCoords[size_t(face)];
-  if (!(square > 0)) return corners[0];
-  const float atB = float(Dot(Cross(p - a, c - a), normal) / square);
-  const float atC = float(Dot(Cross(b - a, p - a), normal) / square);
-  return corners[0] + (corners[1] - corners[0]) * atB + (corners[2] - corners[0]) * atC;
-}
-
 /// The longer side of the box about the places of a chart, m.
 double LengthOf(const ChartSet& set, const Chart& chart) {
   Vec2f low = set.places[size_t(chart.firstFace)][0], high = low;
