@@ -233,6 +233,7 @@ RadiosityRunOptions SolveArguments::RunOptions() const {
   options.timeLimit = time;
   if (!lightMap.empty()) options.atlas = atlas;
   options.introducedTriangles = introducedTriangles;
+  options.splitSurfaces = splitSurfaces;
   options.representations = representations;
   // A picture costs a GL context and four samples a pixel: some 2 s a megapixel drawn in software.
   const auto pixels = ImageSize();

@@ -40,6 +40,7 @@ struct SolveArguments {
   AtlasOptions atlas;
   LitModelOptions model;  ///< of glTF and HTML, without its tone
   std::optional<int64_t> introducedTriangles;
+  bool splitSurfaces = false;
   std::map<std::string, Representation> representations;
   bool probeGather = false, bothSides = false;
   ToneMappingOptions tone;

@@ -66,7 +66,7 @@ void AddFalseColorOptions(CLI::App* command, CLI::Option* image, SolveArguments*
       ->needs(colors);
 }
 
-/// Which surfaces a light map takes.
+/// How fine its texels are.
 void AddTexelDensity(CLI::App* command, CLI::Option* lightMap, AtlasOptions* atlas) {
   command
       ->add_option_function<std::string>(
@@ -81,13 +81,17 @@ void AddTexelDensity(CLI::App* command, CLI::Option* lightMap, AtlasOptions* atl
       ->needs(lightMap);
 }
 
+/// Which surfaces a light map takes.
 void AddRepresentationOptions(CLI::App* command, CLI::Option* lightMap, SolveArguments* arguments) {
+  CLI::Option* introduced = command->add_option_function<int64_t>(
+      "--introduced", [=](int64_t most) { arguments->introducedTriangles = most; },
+      "Light map: triangles that refinement may add to surfaces lit by their points");
+  introduced->check(CLI::NonNegativeNumber)->needs(lightMap);
   command
-      ->add_option_function<int64_t>(
-          "--introduced", [=](int64_t most) { arguments->introducedTriangles = most; },
-          "Light map: triangles that refinement may add to surfaces lit by their points")
-      ->check(CLI::NonNegativeNumber)
-      ->needs(lightMap);
+      ->add_flag(
+          "--split-surfaces", arguments->splitSurfaces,
+          "Surfaces show at points what refinement left as it was, the rest in the light map")
+      ->needs(introduced);
   command
       ->add_option_function<std::vector<std::string>>(
           "--represent",

@@ -48,6 +48,7 @@ int vtkSurfaceRepresentation::FillOutputPortInformation(int port, vtkInformation
 // Options of the algorithms, forwarded.
 lambertOptionMacro(vtkSurfaceRepresentation, IntroducedTriangles, vtkIdType,
                    Choice.introducedTriangles);
+lambertOptionMacro(vtkSurfaceRepresentation, SplitSurfaces, bool, Choice.splitSurfaces);
 lambertOptionMacro(vtkSurfaceRepresentation, Stretch, double, Atlas.stretch);
 lambertOptionMacro(vtkSurfaceRepresentation, PageSize, int, Atlas.pageSize);
 lambertOptionMacro(vtkSurfaceRepresentation, Pages, int, Atlas.pages);
@@ -121,6 +122,7 @@ int vtkSurfaceRepresentation::RequestData(vtkInformation*, vtkInformationVector*
 void vtkSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "IntroducedTriangles: " << this->GetIntroducedTriangles() << "\n"
+     << indent << "SplitSurfaces: " << this->GetSplitSurfaces() << "\n"
      << indent << "PageSize: " << this->GetPageSize() << "\n"
      << indent << "Pages: " << this->GetPages() << "\n"
      << indent << "TexelSize: " << this->GetTexelSize() << "\n"

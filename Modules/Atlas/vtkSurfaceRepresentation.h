@@ -10,8 +10,9 @@
  * `PageId`. Output port 1: vtkMultiBlockDataSet, the pages, as vtkRadiosityLightMap has them.
  * Output port 2: vtkTable, a row a surface: `LightMapped` (0 or 1), `InputTriangles`,
  * `RefinedTriangles`, `Area` (m2), `Texels`, `MapError` (relative RMS of irradiance; both 0 outside
- * the light map), `Surface` and `Side`: a sheet that is lit on both sides has a row for each, and
- * the faces of port 0 then have `Side`, too, and are wound towards it.
+ * the light map), `Surface` and `Side`: a sheet that is lit on both sides has a row for each, a
+ * surface that is cut one for each part. With sheets the faces of port 0 then have `Side`, too, and
+ * are wound towards it.
  */
 #ifndef vtkSurfaceRepresentation_h
 #define vtkSurfaceRepresentation_h
@@ -32,6 +33,12 @@ class LAMBERTATLAS_EXPORT vtkSurfaceRepresentation : public vtkPolyDataAlgorithm
   /// 0.
   void SetIntroducedTriangles(vtkIdType triangles);
   vtkIdType GetIntroducedTriangles();
+  ///@}
+  ///@{ Whether AUTOMATIC surfaces are cut into clusters, each of its own kind, with no step between
+  /// them; default off.
+  void SetSplitSurfaces(bool split);
+  bool GetSplitSurfaces();
+  vtkBooleanMacro(SplitSurfaces, bool);
   ///@}
   enum Kind { AUTOMATIC = 0, POINTS = 1, LIGHT_MAP = 2 };
   ///@{ What is wanted of the surfaces of a material, by its name; default AUTOMATIC, as the

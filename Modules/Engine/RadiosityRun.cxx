@@ -211,6 +211,7 @@ void RadiosityRun::Represent(const ProgressCallback& progress) {
   // What is wanted of surfaces, by their material.
   RepresentationOptions options;
   options.introducedTriangles = this->options_.introducedTriangles.value_or(0);
+  options.splitSurfaces = this->options_.splitSurfaces;
   const TriangleMesh& mesh = this->scene_.mesh;
   options.wanted = RepresentationsByMaterial(
       mesh, this->tree_, this->scene_.materials, this->options_.representations,

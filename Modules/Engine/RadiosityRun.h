@@ -37,6 +37,7 @@ struct RadiosityRunOptions {
   /// Triangles that refinement may add to the surfaces that their points light; none: all surfaces
   /// are in the light map but those of `representations`.
   std::optional<int64_t> introducedTriangles;
+  bool splitSurfaces = false;  ///< surfaces of both kinds, where `introducedTriangles` chooses
   std::map<std::string, Representation> representations;  ///< by material, as asked for
   double timeLimit = 0;        ///< seconds since the process began, writing included; 0: none
   double outputSeconds = 0.2;  ///< kept free for what is not proportional to the mesh (a picture)

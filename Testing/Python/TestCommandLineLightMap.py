@@ -97,6 +97,14 @@ for wrong, code in ((["--page-size", "64"], 2), (["--page-format", "exr"], 2), (
     failed = run("solve", CORNELL_BOX, "-o", solved, *wrong)
     assert failed.returncode == code and failed.stderr.strip(), (wrong, failed.returncode, failed.stderr)
 
+# Surfaces that are cut where refinement went: a row a part.
+split = run("solve", *common, "--introduced", "500", "--split-surfaces", "--report", report)
+assert split.returncode == 0, split.stderr
+told = json.load(open(report))["representation"]
+assert {"lightmap", "points"} == {s["chosen"] for s in told["surfaces"]}
+assert mesh_of(mapped).GetNumberOfCells() == told["triangles"]
+assert run("solve", *common, "--split-surfaces").returncode == 2
+
 # Surfaces that refinement left alone, or whose material is wanted so, are lit by their points; the report tells what either costs.
 shares = {}
 for name, wanted in (("budget", ["--introduced", "500"]), ("wanted", ["--represent", "White:points"])):

@@ -16,6 +16,28 @@ namespace lambert {
 /// do. Throws Error for a mesh without surfaces.
 std::vector<int32_t> FindNeighbours(const TriangleMesh& mesh);
 
+/// An edge whose two faces share its points. Corner `from` of either lies where corner `from` of
+/// the other does, and so does `to`.
+struct SharedEdge {
+  std::array<size_t, 2> faces, from, to;
+};
+
+/// Calls `visit(SharedEdge)` once for every edge within a surface whose faces share its points.
+template <class Visit>
+void ForEachSharedEdge(const TriangleMesh& mesh, const Visit& visit) {
+  const std::vector<int32_t> neighbours = FindNeighbours(mesh);
+  for (size_t corner = 0; corner < neighbours.size(); ++corner) {
+    if (neighbours[corner] <= int32_t(corner)) continue;
+    const size_t other = size_t(neighbours[corner]);
+    const SharedEdge edge = {
+        {corner / 3, other / 3}, {corner % 3, (other + 1) % 3}, {(corner + 1) % 3, other % 3}};
+    const auto point = [&](size_t side, size_t c) { return mesh.triangles[edge.faces[side]][c]; };
+    if (point(0, edge.from[0]) != point(1, edge.from[1])) continue;
+    if (point(0, edge.to[0]) != point(1, edge.to[1])) continue;
+    visit(edge);
+  }
+}
+
 /// Corners are one vertex where edges join them: where faces meet in a point alone, each has its
 /// own.
 struct ChartMesh {

@@ -1,12 +1,8 @@
 #include "Atlas/Core/LightMap.h"
 
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCore>
 #include <algorithm>
-#include <cmath>
-#include <unordered_map>
 
-#include "Atlas/Core/ChartMesh.h"
+#include "Atlas/Core/LightMapSeams.h"
 #include "Atlas/Core/ShownSides.h"
 #include "Atlas/Core/TexelRaster.h"
 #include "Common/Core/Error.h"
@@ -14,31 +10,6 @@
 namespace lambert {
 
 namespace {
-
-/// What moving a texel costs beside a difference at a point of a seam.
-constexpr double kStay = 0.1;
-constexpr double kSolverTolerance = 1e-6;
-constexpr int kMostSolverSteps = 1000;
-
-/// The four texels around a place and their parts of a lookup there.
-struct Footprint {
-  std::array<size_t, 4> texels;
-  std::array<double, 4> parts;
-
-  Footprint(int size, const Vec2f& textureCoords) {
-    const double x = double(textureCoords.x) * size - 0.5, y = double(textureCoords.y) * size - 0.5;
-    const int left = int(std::floor(x)), low = int(std::floor(y));
-    const double u = x - left, v = y - low;
-    const auto texel = [&](int column, int row) {
-      column = std::min(size - 1, std::max(0, column));
-      row = std::min(size - 1, std::max(0, row));
-      return size_t(row) * size_t(size) + size_t(column);
-    };
-    texels = {texel(left, low), texel(left + 1, low), texel(left, low + 1),
-              texel(left + 1, low + 1)};
-    parts = {(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v};
-  }
-};
 
 /// A page while it is filled.
 struct Canvas {
@@ -195,130 +166,11 @@ void PullPush(int size, Canvas* canvas) {
   }
 }
 
-/// A point on a cut edge, as it lies on both sides.
-struct SeamPoint {
-  std::array<int32_t, 2> pages;
-  std::array<Footprint, 2> footprints;
-};
-
-/// About a point a texel along every edge between two charts whose faces share its points: what
-/// they do not share is creased, and light may differ.
-std::vector<SeamPoint> FindSeams(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
-                                 const std::vector<int32_t>& chartOfFace) {
-  std::vector<SeamPoint> seams;
-  const std::vector<int32_t> neighbours = FindNeighbours(mesh);
-  for (size_t corner = 0; corner < neighbours.size(); ++corner) {
-    if (neighbours[corner] <= int32_t(corner)) continue;
-    const size_t other = size_t(neighbours[corner]);
-    const std::array<size_t, 2> faces = {corner / 3, other / 3};
-    const std::array<size_t, 2> charts = {size_t(chartOfFace[faces[0]]),
-                                          size_t(chartOfFace[faces[1]])};
-    if (charts[0] == charts[1]) continue;
-    const size_t c = corner % 3, next = (c + 1) % 3, d = other % 3, last = (d + 1) % 3;
-    if (mesh.triangles[faces[0]][c] != mesh.triangles[faces[1]][last]) continue;
-    if (mesh.triangles[faces[0]][next] != mesh.triangles[faces[1]][d]) continue;
-    const std::array<Vec2f, 2> from = {atlas.textureCoords[faces[0]][c],
-                                       atlas.textureCoords[faces[1]][last]};
-    const std::array<Vec2f, 2> to = {atlas.textureCoords[faces[0]][next],
-                                     atlas.textureCoords[faces[1]][d]};
-    float length = 0;
-    for (size_t side = 0; side < 2; ++side) {
-      length = std::max(length, std::hypot(to[side].x - from[side].x, to[side].y - from[side].y));
-    }
-    const int count = 1 + int(length * float(atlas.pageSize));
-    for (int i = 0; i < count; ++i) {
-      const float part = (float(i) + 0.5f) / float(count);
-      const auto at = [&](size_t side) {
-        return Footprint(atlas.pageSize, from[side] + (to[side] - from[side]) * part);
-      };
-      seams.push_back(
-          {{atlas.pageOfChart[charts[0]], atlas.pageOfChart[charts[1]]}, {at(0), at(1)}});
-    }
-  }
-  return seams;
-}
-
-Spectrum Sum(const std::vector<Spectrum>& texels, const Footprint& footprint) {
-  Spectrum sum;
-  for (size_t i = 0; i < 4; ++i) {
-    sum += texels[footprint.texels[i]] * float(footprint.parts[i]);
-  }
-  return sum;
-}
-
-double Norm(const Spectrum& s) { return std::sqrt(SquaredNorm(s) / 3); }
-
-SeamDifference MeasureSeams(const std::vector<SeamPoint>& seams, const LightMap& map, double mean) {
-  SeamDifference difference;
-  if (seams.empty() || !(mean > 0)) return difference;
-  for (const SeamPoint& seam : seams) {
-    const Spectrum a = Sum(map.pages[size_t(seam.pages[0])], seam.footprints[0]);
-    const Spectrum b = Sum(map.pages[size_t(seam.pages[1])], seam.footprints[1]);
-    const double part = Norm(a - b) / std::max(mean, Norm((a + b) * 0.5f));
-    difference.rms += part * part / double(seams.size());
-    difference.largest = std::max(difference.largest, part);
-  }
-  difference.rms = std::sqrt(difference.rms);
-  return difference;
-}
-
-/// Moves the texels of seams by as little as may be until lookups on both sides agree; all in parts
-/// of the light there or of `mean`, whichever is more, or lamps would have all the say.
-void CloseSeams(const std::vector<SeamPoint>& seams, double mean, LightMap* map) {
-  if (seams.empty() || !(mean > 0)) return;
-  // The texels that are looked up, as unknowns.
-  std::unordered_map<uint64_t, int> unknownOfTexel;
-  std::vector<Spectrum*> texels;
-  const size_t pageTexels = size_t(map->pageSize) * size_t(map->pageSize);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (size_t s = 0; s < seams.size(); ++s) {
-    const Spectrum light = Sum(map->pages[size_t(seams[s].pages[0])], seams[s].footprints[0]) +
-                           Sum(map->pages[size_t(seams[s].pages[1])], seams[s].footprints[1]);
-    const double weight = 1 / std::max(mean, Norm(light * 0.5f));
-    for (size_t side = 0; side < 2; ++side) {
-      const Footprint& footprint = seams[s].footprints[side];
-      for (size_t i = 0; i < 4; ++i) {
-        const size_t page = size_t(seams[s].pages[side]);
-        const auto [place, isNew] =
-            unknownOfTexel.try_emplace(page * pageTexels + footprint.texels[i], int(texels.size()));
-        if (isNew) texels.push_back(&map->pages[page][footprint.texels[i]]);
-        entries.emplace_back(int(s), place->second,
-                             weight * (side == 0 ? footprint.parts[i] : -footprint.parts[i]));
-      }
-    }
-  }
-
-  // Least squares: the differences, and how far texels move.
-  const int count = int(texels.size());
-  Eigen::SparseMatrix<double> difference(int(seams.size()), count), stay(count, count);
-  difference.setFromTriplets(entries.begin(), entries.end());
-  Eigen::VectorXd stays(count);
-  entries.clear();
-  for (int i = 0; i < count; ++i) {
-    const double light = std::max(mean, Norm(*texels[size_t(i)]));
-    stays[i] = kStay / (light * light);
-    entries.emplace_back(i, i, stays[i]);
-  }
-  stay.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SparseMatrix<double> matrix =
-      Eigen::SparseMatrix<double>(difference.transpose()) * difference + stay;
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver;
-  solver.setTolerance(kSolverTolerance);
-  solver.setMaxIterations(kMostSolverSteps);
-  solver.compute(matrix);
-  for (int band = 0; band < 3; ++band) {
-    Eigen::VectorXd was(count);
-    for (int i = 0; i < count; ++i) was[i] = double((*texels[size_t(i)])[band]);
-    const Eigen::VectorXd is = solver.solveWithGuess(stays.cwiseProduct(was), was);
-    if (!is.allFinite()) continue;
-    for (int i = 0; i < count; ++i) (*texels[size_t(i)])[band] = float(std::max(0., is[i]));
-  }
-}
-
 }  // namespace
 
 LightMap MakeLightMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
-                      const RadiositySolution& solution, const ProgressCallback& progress) {
+                      const RadiositySolution& solution, const ProgressCallback& progress,
+                      const std::vector<BorderPoint>& borders) {
   // The three belong together.
   if (atlas.textureCoords.size() != mesh.triangles.size()) {
     throw Error("The atlas holds " + std::to_string(atlas.textureCoords.size()) +
@@ -349,7 +201,7 @@ LightMap MakeLightMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
 
   // Cuts, and all that lies between the charts.
   if (!Report(progress, 0.5, "closing seams")) throw Cancelled();
-  const std::vector<SeamPoint> seams = FindSeams(mesh, atlas, chartOfFace);
+  const std::vector<SeamPoint> seams = FindSeams(mesh, atlas, chartOfFace, borders);
   map.seamPoints = int64_t(seams.size());
   map.before = MeasureSeams(seams, map, mean);
   CloseSeams(seams, mean, &map);
@@ -383,7 +235,7 @@ LightMap NextMipLevel(const LightMap& map) {
 }
 
 Spectrum Lookup(const LightMap& map, int page, const Vec2f& textureCoords) {
-  return Sum(map.pages[size_t(page)], Footprint(map.pageSize, textureCoords));
+  return Footprint(map.pageSize, textureCoords).Lookup(map.pages[size_t(page)]);
 }
 
 }  // namespace lambert

@@ -44,8 +44,11 @@ std::vector<std::array<SideLight, 2>> LightOfSurfaces(const TriangleMesh& mesh,
   return light;
 }
 
+/// Of two dark ones, the larger.
 uint8_t BrighterSide(const std::array<SideLight, 2>& light) {
-  return light[kBack].power > light[kFront].power ? kBack : kFront;
+  const SideLight &front = light[kFront], &back = light[kBack];
+  if (front.power == back.power) return back.area > front.area ? kBack : kFront;
+  return back.power > front.power ? kBack : kFront;
 }
 
 /// Faces from `first` on, seen from behind: points of their own, whose normals are turned.

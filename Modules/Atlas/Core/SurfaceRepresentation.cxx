@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "Atlas/Core/SurfaceParts.h"
 #include "Atlas/Core/TexelDensity.h"
 #include "Common/Core/Error.h"
 
@@ -20,6 +21,14 @@ struct ErrorSum {
   }
   double Rms() const { return light > 0 ? std::sqrt(squares / light) : 0; }
 };
+
+void RequireFitting(const RepresentationOptions& options, size_t surfaces) {
+  if (options.introducedTriangles < 0) throw Error("Refinement adds 0 triangles or more.");
+  if (!options.wanted.empty() && options.wanted.size() != surfaces) {
+    throw Error("Representations are wanted of " + std::to_string(options.wanted.size()) +
+                " surfaces, and there are " + std::to_string(surfaces) + ".");
+  }
+}
 
 Vec3f Middle(const TriangleMesh& mesh, int64_t face) {
   return (mesh.Corner(face, 0) + mesh.Corner(face, 1) + mesh.Corner(face, 2)) / 3.f;
@@ -145,9 +154,24 @@ void AppendMesh(const TriangleMesh& other, TriangleMesh* mesh) {
   mesh->surfaceId.clear();  // Those of the two are not the same.
 }
 
-/// Surfaces in their order, every one in its representation.
+/// Light of what the light map shows. Where surfaces were cut, `uncut` has them whole: charts of
+/// two parts have a seam, and the map brings at its border what the points beyond show.
+LightMap DrawMapped(const RepresentedScene& scene, const RadiositySolution& solution,
+                    const TriangleMesh* uncut, const ProgressCallback& progress) {
+  const SurfaceSubset& mapped = scene.mapped;
+  if (!uncut) return MakeLightMap(mapped.mesh, scene.atlas, mapped.solution, progress);
+  TriangleMesh mesh = mapped.mesh;
+  for (size_t face = 0; face < mesh.triangles.size(); ++face) {
+    mesh.surfaceId[face] = uncut->surfaceId[size_t(mapped.inputFace[face])];
+  }
+  return MakeLightMap(mesh, scene.atlas, mapped.solution, progress,
+                      FindBorders(*uncut, solution, mapped, scene.atlas));
+}
+
+/// Surfaces in their order, every one in its representation; parts of those of `uncut`, where that
+/// is given.
 RepresentedScene RepresentAsTheyAre(const TriangleMesh& mesh, const ClusterTree& tree,
-                                    const RadiositySolution& solution,
+                                    const RadiositySolution& solution, const TriangleMesh* uncut,
                                     const RepresentationOptions& options,
                                     const AtlasOptions& atlasOptions,
                                     const ProgressCallback& progress) {
@@ -173,10 +197,9 @@ RepresentedScene RepresentAsTheyAre(const TriangleMesh& mesh, const ClusterTree&
   scene.atlas = WithTexelDensity(
       scene.mapped.mesh, std::move(scene.atlas), scene.mapped.solution, atlasOptions,
       [&](double, const char* stage) { return Report(progress, 0.7, stage); });
-  scene.map = MakeLightMap(scene.mapped.mesh, scene.atlas, scene.mapped.solution,
-                           [&](double fraction, const char* stage) {
-                             return Report(progress, 0.7 + 0.3 * fraction, stage);
-                           });
+  scene.map = DrawMapped(scene, solution, uncut, [&](double fraction, const char* stage) {
+    return Report(progress, 0.7 + 0.3 * fraction, stage);
+  });
 
   // What it costs.
   const std::vector<double> errors = MapErrors(scene), texels = TexelsOfSurfaces(scene);
@@ -185,6 +208,54 @@ RepresentedScene RepresentAsTheyAre(const TriangleMesh& mesh, const ClusterTree&
     if (cost.chosen != Representation::LightMap) continue;
     cost.texels = texels[next];
     cost.mapError = errors[next++];
+  }
+  return scene;
+}
+
+/// The triangles of a solution that lie on the brighter sides of whole surfaces: parts of one show
+/// the same side.
+RadiositySolution OnBrighterSidesOfSurfaces(const TriangleMesh& mesh,
+                                            const RadiositySolution& solution) {
+  const std::vector<uint8_t> sides = BrighterSidesOfSurfaces(mesh, solution);
+  std::vector<int64_t> triangles;
+  for (size_t t = 0; t < solution.inputFaceId.size(); ++t) {
+    if (solution.side[t] == sides[SurfaceOf(mesh, solution, t)]) triangles.push_back(int64_t(t));
+  }
+  return TakeTriangles(solution, triangles);
+}
+
+/// Cuts surfaces where the options ask for it.
+RepresentedScene RepresentParts(const TriangleMesh& mesh, const ClusterTree& tree,
+                                const RadiositySolution& solution,
+                                const RepresentationOptions& options,
+                                const AtlasOptions& atlasOptions,
+                                const ProgressCallback& progress) {
+  if (!options.splitSurfaces) {
+    return RepresentAsTheyAre(mesh, tree, solution, nullptr, options, atlasOptions, progress);
+  }
+  RequireFitting(options, tree.surfaceRoots.size());
+  const auto wantedOf = [&](size_t surface) {
+    return options.wanted.empty() ? Representation::Automatic : options.wanted[surface];
+  };
+  std::vector<bool> mayBeCut(tree.surfaceRoots.size());
+  for (size_t s = 0; s < mayBeCut.size(); ++s) {
+    mayBeCut[s] = wantedOf(s) == Representation::Automatic;
+  }
+  const RadiositySolution shown = OnBrighterSidesOfSurfaces(mesh, solution);
+  const SurfaceParts parts = CutWhereRefined(mesh, tree, shown, mayBeCut);
+
+  // Parts as surfaces.
+  TriangleMesh ofParts = mesh;
+  ofParts.surfaceId = parts.partOfFace;
+  RepresentationOptions optionsOfParts = options;
+  optionsOfParts.wanted.clear();
+  for (const int32_t surface : parts.surfaceOfPart) {
+    optionsOfParts.wanted.push_back(wantedOf(size_t(surface)));
+  }
+  RepresentedScene scene =
+      RepresentAsTheyAre(ofParts, parts.tree, shown, &mesh, optionsOfParts, atlasOptions, progress);
+  for (size_t part = 0; part < scene.surfaces.size(); ++part) {
+    scene.surfaces[part].surface = parts.surfaceOfPart[part];
   }
   return scene;
 }
@@ -206,13 +277,9 @@ std::vector<Representation> RepresentationsByMaterial(
 std::vector<SurfaceCost> ChooseRepresentations(const TriangleMesh& mesh,
                                                const RadiositySolution& solution,
                                                const RepresentationOptions& options) {
-  if (options.introducedTriangles < 0) throw Error("Refinement adds 0 triangles or more.");
   if (mesh.surfaceId.empty()) throw Error("The mesh has no surfaces; cluster its faces first.");
   std::vector<SurfaceCost> costs = MeasureSurfaces(mesh, solution);
-  if (!options.wanted.empty() && options.wanted.size() != costs.size()) {
-    throw Error("Representations are wanted of " + std::to_string(options.wanted.size()) +
-                " surfaces, and there are " + std::to_string(costs.size()) + ".");
-  }
+  RequireFitting(options, costs.size());
 
   // What is wanted stands.
   int64_t introduced = 0;
@@ -242,7 +309,7 @@ RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& 
                                    const AtlasOptions& atlasOptions,
                                    const ProgressCallback& progress) {
   const std::optional<ShownSides> shown = ShowBothSides(mesh, tree, solution);
-  if (!shown) return RepresentAsTheyAre(mesh, tree, solution, options, atlasOptions, progress);
+  if (!shown) return RepresentParts(mesh, tree, solution, options, atlasOptions, progress);
 
   // The sides of sheets as surfaces.
   RadiositySolution onSides = OntoShownSides(solution, shown->inputFace, shown->side);
@@ -256,14 +323,15 @@ RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& 
     for (const int32_t s : shown->inputSurface) ofSides.wanted.push_back(options.wanted[size_t(s)]);
   }
   RepresentedScene scene =
-      RepresentAsTheyAre(shown->mesh, shown->tree, onSides, ofSides, atlasOptions, progress);
+      RepresentParts(shown->mesh, shown->tree, onSides, ofSides, atlasOptions, progress);
 
   // What they are of the solved mesh.
   scene.hasSheets = true;
-  for (size_t s = 0; s < scene.surfaces.size(); ++s) {
+  for (SurfaceCost& cost : scene.surfaces) {
+    const size_t s = size_t(cost.surface);
     const ClusterNode& root = shown->tree.nodes[size_t(shown->tree.surfaceRoots[s])];
-    scene.surfaces[s].surface = shown->inputSurface[s];
-    scene.surfaces[s].side = shown->side[size_t(root.firstFace)];
+    cost.surface = shown->inputSurface[s];
+    cost.side = shown->side[size_t(root.firstFace)];
   }
   return scene;
 }

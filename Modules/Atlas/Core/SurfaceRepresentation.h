@@ -20,10 +20,13 @@ struct RepresentationOptions {
   /// Triangles that refinement may add to all the surfaces that their points light, [0, inf).
   int64_t introducedTriangles = 0;
   std::vector<Representation> wanted;  ///< by surface; empty: all Automatic
+  /// Automatic surfaces are cut into clusters, each of its own kind, with no step between them.
+  bool splitSurfaces = false;
 };
 
-/// What a surface costs either way; of a sheet that is lit on both sides, a side of it. Errors are
-/// relative RMS of irradiance against the solution, by area.
+/// What a surface costs either way; of a sheet that is lit on both sides, a side of it; of a
+/// surface that is cut, a part. Errors are relative RMS of irradiance against the solution, by
+/// area.
 struct SurfaceCost {
   Representation chosen = Representation::Points;
   int64_t inputTriangles = 0;    ///< drawn with a light map
@@ -54,17 +57,21 @@ std::vector<SurfaceCost> ChooseRepresentations(const TriangleMesh& mesh,
 
 /// A solved scene, every surface in its representation.
 struct RepresentedScene {
-  std::vector<SurfaceCost> surfaces;  ///< of the solved mesh, then the second sides of its sheets
-  bool hasSheets = false;             ///< then faces are wound towards the side that they show
-  SurfaceSubset mapped;               ///< in the light map
-  RadiosityAtlas atlas;               ///< of mapped.mesh
+  /// Of the solved mesh, then the second sides of its sheets; in place of one that is cut, its
+  /// parts.
+  std::vector<SurfaceCost> surfaces;
+  bool hasSheets = false;  ///< then faces are wound towards the side that they show
+  SurfaceSubset mapped;    ///< in the light map
+  RadiosityAtlas atlas;    ///< of mapped.mesh
   LightMap map;
   RadiositySolution points;         ///< the sides that show of the others
   std::vector<size_t> rowOfPoints;  ///< by triangle of `points`: in `surfaces`
 };
 
 /// Chooses, lays flat and draws the light of what the light map takes. `mesh` is in the order of
-/// `tree`. What is wanted of a surface is wanted of both sides of a sheet. Throws Error, Cancelled.
+/// `tree`. What is wanted of a surface is wanted of both sides of a sheet. Where surfaces are
+/// split, lookups along the border of the light map bring what points beyond it show. Throws Error,
+/// Cancelled.
 RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& tree,
                                    const RadiositySolution& solution,
                                    const RepresentationOptions& options,

@@ -115,6 +115,7 @@ SurfaceSubset TakeSurfaces(const TriangleMesh& mesh, const ClusterTree& tree,
   subset.solution = TakeTriangles(solution, triangles);
   subset.solution.inputIrradiance.clear();
   for (int64_t& face : subset.solution.inputFaceId) face = numberOfFace[size_t(face)];
+  subset.inputFace = std::move(faces);
   return subset;
 }
 

@@ -14,6 +14,7 @@ struct SurfaceSubset {
   ClusterTree tree;   ///< surfaces are numbered anew, in their order
   RadiositySolution
       solution;  ///< its triangles on these faces, and their points; no inputIrradiance
+  std::vector<int64_t> inputFace;  ///< by face: of the solved mesh
 };
 
 /// The surfaces s for which `isTaken[s]`. `mesh` is in the order of `tree`.

@@ -21,6 +21,7 @@ chosen.SetClusterConnection(clustering.GetOutputPort(1))
 chosen.SetSolutionConnection(solver.GetOutputPort(0))
 assert chosen.GetIntroducedTriangles() == 0 and chosen.GetPageSize() == 1024 and chosen.GetPadding() == 2
 assert chosen.GetRepresentation("White") == chosen.AUTOMATIC
+assert not chosen.GetSplitSurfaces()
 chosen.SetPageSize(128)
 
 
@@ -75,3 +76,11 @@ chosen.SetIntroducedTriangles(-1)
 chosen.Update()
 assert len(errors) >= 2 and chosen.GetOutput(0).GetNumberOfCells() == 0
 print("surface representation: passed")
+
+# Cut into parts: a row each, none of a surface whose kind is decided, and no face is lost.
+chosen.SetIntroducedTriangles(0)
+chosen.SplitSurfacesOn()
+table = costs()
+assert np.array_equal(np.unique(table["Surface"]), np.arange(surfaces.max() + 1))
+assert np.array_equal(np.bincount(table["Surface"], table["InputTriangles"]), np.bincount(surfaces))
+assert (np.bincount(table["Surface"])[is_white] == 1).all() and (table["LightMapped"] == 1).any()

@@ -4,6 +4,7 @@
 #include "Atlas/Core/ChartMesh.h"
 #include "Clustering/Core/FaceClustering.h"
 #include "Clustering/Testing/Unit/ClusteringMeshes.h"
+#include "Scene/Core/RadiositySolution.h"
 
 namespace lambert {
 
@@ -30,6 +31,34 @@ inline TriangleMesh TwoFlatGrids(int cells) {
   }
   mesh.Complete();
   return mesh;
+}
+
+/// Puts a triangle of a face into a solution, cut into four `depth` times, with light that depends
+/// on the place alone.
+template <class LightAt>
+void AddRefined(int64_t face, const std::array<Vec3f, 3>& corners, int depth,
+                const LightAt& lightAt, RadiositySolution* solution) {
+  const auto& [a, b, c] = corners;
+  if (depth > 0) {
+    const Vec3f ab = (a + b) * 0.5f, bc = (b + c) * 0.5f, ca = (c + a) * 0.5f;
+    AddRefined(face, {a, ab, ca}, depth - 1, lightAt, solution);
+    AddRefined(face, {ab, b, bc}, depth - 1, lightAt, solution);
+    AddRefined(face, {ca, bc, c}, depth - 1, lightAt, solution);
+    AddRefined(face, {ab, bc, ca}, depth - 1, lightAt, solution);
+    return;
+  }
+  const int32_t first = int32_t(solution->mesh.positions.size());
+  for (const Vec3f& p : corners) {
+    solution->mesh.positions.push_back(p);
+    solution->irradiance.push_back(lightAt(p));
+  }
+  solution->mesh.triangles.push_back({first, first + 1, first + 2});
+  solution->inputFaceId.push_back(face);
+  solution->side.push_back(kFront);
+}
+
+inline std::array<Vec3f, 3> CornersOf(const TriangleMesh& mesh, int64_t face) {
+  return {mesh.Corner(face, 0), mesh.Corner(face, 1), mesh.Corner(face, 2)};
 }
 
 /// All of a mesh as one chart.

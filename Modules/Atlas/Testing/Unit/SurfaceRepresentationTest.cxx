@@ -27,34 +27,14 @@ struct TwoPlanes {
     tree = ClusterFaces(&mesh, {});
     for (const Vec3f& p : mesh.positions) solution.inputIrradiance.push_back(Strip(p));
     for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
-      this->Add(face, mesh.Corner(face, 0), mesh.Corner(face, 1), mesh.Corner(face, 2),
-                mesh.Corner(face, 0).z > 1 ? depth : 0);
+      AddRefined(face, CornersOf(mesh, face), mesh.Corner(face, 0).z > 1 ? depth : 0, Strip,
+                 &solution);
     }
     solution.mesh.Complete();
   }
 
   size_t Upper() const {
     return size_t(mesh.surfaceId[size_t(mesh.Corner(0, 0).z > 1 ? 0 : mesh.FaceCount() - 1)]);
-  }
-
- private:
-  void Add(int64_t face, const Vec3f& a, const Vec3f& b, const Vec3f& c, int depth) {
-    if (depth > 0) {
-      const Vec3f ab = (a + b) * 0.5f, bc = (b + c) * 0.5f, ca = (c + a) * 0.5f;
-      this->Add(face, a, ab, ca, depth - 1);
-      this->Add(face, ab, b, bc, depth - 1);
-      this->Add(face, ca, bc, c, depth - 1);
-      this->Add(face, ab, bc, ca, depth - 1);
-      return;
-    }
-    const int32_t first = int32_t(solution.mesh.positions.size());
-    for (const Vec3f& p : {a, b, c}) {
-      solution.mesh.positions.push_back(p);
-      solution.irradiance.push_back(Strip(p));
-    }
-    solution.mesh.triangles.push_back({first, first + 1, first + 2});
-    solution.inputFaceId.push_back(face);
-    solution.side.push_back(kFront);
   }
 };
 
