@@ -269,8 +269,8 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
 }
 
 // Refines links to `threshold`, not below `last`, and lets light bounce; where there is none to
-// show, goes on at once. False, with the links as they were, where `progress` asked to stop or
-// there is no room (isFull); room for the first iteration is not asked for.
+// show, goes on at once. False, with the light as it was, where `progress` asked to stop or there
+// is no room (isFull); room for the first iteration is not asked for.
 bool HierarchicalRadiosity::Implementation::RefineAndExchange(double last, double* threshold,
                                                               double* change,
                                                               const ProgressCallback& progress) {
@@ -285,13 +285,16 @@ bool HierarchicalRadiosity::Implementation::RefineAndExchange(double last, doubl
   linkSolution.reset();
   for (;; *threshold *= kThresholdFactor) {
     *threshold = std::max(last, *threshold);
+    bool isAgain = false;  // Then a run does not end here: only the first pass can be undone.
     do {
       oracle->Adapt(hierarchy, light);
       const bool isRefined = statistics.stages.Time("links", [&] {
         return RefineLinks(*threshold * received, *oracle, rayScene, &hierarchy, &light, &network,
-                           progress, hasRoom);
+                           isAgain ? ProgressCallback() : progress,
+                           isAgain ? RoomCallback() : hasRoom);
       });
       if (!isRefined) return false;
+      isAgain = true;
       delivered.reset();
       *change = this->Exchange(isInterleaved ? kOneSweep : tolerance());
     } while (isInterleaved && *threshold <= last && *change > kSweepTolerance);
@@ -452,6 +455,7 @@ bool HierarchicalRadiosity::Relight() {
   }
   self.secondsBefore = 0;
   self.statistics.history.clear();
+  self.statistics.stages = {};
   self.statistics.stoppedBy.clear();
   CountElementsAndLinks(self.hierarchy, self.network, &self.statistics);
   return true;
