@@ -265,9 +265,10 @@ bool DirectLight::PolygonView::PickPlace(const Vec2f& uv, int rays, Random* rand
   return sum > 0;
 }
 
-// Rays dealt out by weight, systematically: each brings an equal part of it.
+// Rays dealt out by weight, systematically: each brings an equal part of it. `squares` is the sum
+// of the squares of what they bring, in such parts.
 Spectrum DirectLight::CastRays(const GatherPoint& at, const Source* sources, int count, float total,
-                               int rays, uint64_t seed, int* clear) const {
+                               int rays, uint64_t seed, int* clear, double* squares) const {
   Random random(seed);
   const float start = random.Uniform(), shift = random.Uniform();
   const float part = total / float(rays);
@@ -291,7 +292,7 @@ Spectrum DirectLight::CastRays(const GatherPoint& at, const Source* sources, int
     const bool isPolygon = nodes_[size_t(source.node)].second < 0;
     std::optional<PolygonView> view;
     if (isPolygon) view.emplace(viewOf(source));
-    float all = 0, open = 0;
+    float all = 0, open = 0, openSquares = 0;
     for (int k = 0; k < own; ++k) {
       float u = (float(k) + random.Uniform()) / float(own), chance = 1, value = 0;
       const Source picked = isPolygon ? source : this->PickPolygon(source, at, &u, &chance);
@@ -303,11 +304,17 @@ Spectrum DirectLight::CastRays(const GatherPoint& at, const Source* sources, int
       const bool isClear = !rayScene_.Occluded(at.position, target);
       *clear += isClear;
       all += value;
-      if (isClear) open += value;
-      if (isClear && !isPolygon) sum += picked.exact * (part / (source.weight * chance));
+      if (!isClear) continue;
+      open += value, openSquares += value * value;
+      if (isPolygon) continue;
+      sum += picked.exact * (part / (source.weight * chance));
+      *squares += Square(picked.exact.Mean() / (source.weight * chance));
     }
-    if (isPolygon && all > 0)
-      sum += source.exact * (part * float(own) / source.weight * open / all);
+    if (isPolygon && all > 0) {
+      const float each = float(own) / all;
+      sum += source.exact * (part / source.weight * open * each);
+      *squares += openSquares * each * each;
+    }
   }
   return sum;
 }
@@ -327,8 +334,10 @@ DirectSample DirectLight::FromEmitters(const GatherPoint& at, int rays, uint64_t
   }
   if (!(total > 0)) return sample;
   int clear = 0;
+  double squares = 0;
   sample.irradiance =
-      this->CastRays(at, sources.data(), count, total, rays, HashBits(seed, 1), &clear);
+      this->CastRays(at, sources.data(), count, total, rays, HashBits(seed, 1), &clear, &squares);
+  sample.squares = float(squares / rays);
   sample.clear = float(clear) / float(rays);
   sample.unoccluded = total;
   sample.isScattered = grouped > kMostGrouped * total;
@@ -348,6 +357,7 @@ Spectrum DirectLight::FromLights(const GatherPoint& at, int count, uint64_t seed
 DirectSample DirectLight::Sample(const GatherPoint& at, int count, uint64_t seed,
                                  int64_t* rays) const {
   DirectSample sample = this->FromEmitters(at, count, seed, rays);
+  sample.fromEmitters = sample.irradiance;
   sample.irradiance += this->FromLights(at, count, HashBits(seed, 2), rays);
   return sample;
 }

@@ -26,8 +26,12 @@ struct GatherPoint {
 
 /// What a number of rays found.
 struct DirectSample {
-  Spectrum irradiance;  ///< W/m2
-  float clear = 1;      ///< part of the rays that nothing was in the way of
+  Spectrum irradiance;    ///< W/m2
+  Spectrum fromEmitters;  ///< of it, from emitting faces, W/m2
+  /// Mean square of what a ray to them brings, all being 1 where nothing is in the way and each
+  /// brings as much.
+  float squares = 1;
+  float clear = 1;  ///< part of the rays that nothing was in the way of
   float unoccluded =
       0;  ///< mean of the bands with nothing in the way; of groups at most that, W/m2
   bool isScattered =
@@ -95,7 +99,7 @@ class DirectLight {
   Source Weigh(int32_t node, const GatherPoint& at) const;
   Source PickPolygon(const Source& source, const GatherPoint& at, float* u, float* chance) const;
   Spectrum CastRays(const GatherPoint& at, const Source* sources, int count, float total, int rays,
-                    uint64_t seed, int* clear) const;
+                    uint64_t seed, int* clear, double* squares) const;
   DirectSample FromEmitters(const GatherPoint& at, int rays, uint64_t seed, int64_t* cast) const;
   Spectrum FromLights(const GatherPoint& at, int count, uint64_t seed, int64_t* rays) const;
 

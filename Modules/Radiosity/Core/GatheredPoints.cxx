@@ -61,6 +61,7 @@ std::vector<GatheredPoints::Light> GatheredPoints::At(const std::vector<Point>& 
     this->SampleAll();
     const SampleNeighbours neighbours(samples_, first);
     this->LookIntoPenumbrae(first, neighbours, rays);
+    this->ShareDirect(first, neighbours);
     this->GatherWhereItScatters(first, neighbours, rays, progress);
     samples_ = std::vector<IrradianceSample>();
   }
@@ -68,8 +69,8 @@ std::vector<GatheredPoints::Light> GatheredPoints::At(const std::vector<Point>& 
   ParallelForEach(int64_t(points.size()), 1024, [&](int64_t p) {
     const int32_t index = recordOfPoint[size_t(p)];
     const Record& record = records_[size_t(index)];
-    lights[size_t(p)] = {record.direct.irradiance + record.bounced.irradiance,
-                         record.bounced.variance, index >= first};
+    lights[size_t(p)] = {record.shared + record.bounced.irradiance, record.bounced.variance,
+                         index >= first};
   });
   return lights;
 }
@@ -91,7 +92,7 @@ int32_t GatheredPoints::FindOrAdd(const Point& point) {
   int32_t& record = recordOfKey_[placeOf(point.key)];
   if (record < 0) {
     record = int32_t(records_.size());
-    records_.push_back({point.key, point.at, point.isProbe, {}, 0, {}, {}});
+    records_.push_back({point.key, point.at, point.isProbe, {}, 0, {}, {}, 1, {}});
     deliveredCount_ += point.isProbe ? 0 : 1;
   }
   return record;
@@ -175,6 +176,8 @@ void GatheredPoints::CastMoreToEmitters(const std::vector<int>& more, int32_t fi
     record.directRays += more[size_t(i)];
     const float part = float(more[size_t(i)]) / float(record.directRays);
     record.direct.irradiance = record.direct.irradiance * (1 - part) + rest.irradiance * part;
+    record.direct.fromEmitters = record.direct.fromEmitters * (1 - part) + rest.fromEmitters * part;
+    record.direct.squares = record.direct.squares * (1 - part) + rest.squares * part;
     record.direct.clear = record.direct.clear * (1 - part) + rest.clear * part;
   });
   for (const int64_t c : cast) *rays += c;
@@ -219,8 +222,38 @@ void GatheredPoints::Improve(double noise, int64_t* rays, const ProgressCallback
     if (isUnsure) more[size_t(i)] = std::min(record.directRays, kMostDirectRays);
   });
   this->CastMoreToEmitters(more, 0, rays);
+  this->ShareDirect(0, neighbours);
   this->GatherWhereItScatters(0, neighbours, rays, progress);
   samples_ = std::vector<IrradianceSample>();
+}
+
+// What is visible of the emitting faces, all neighbours heard.
+void GatheredPoints::ShareDirect(int32_t first, const SampleNeighbours& neighbours) {
+  std::vector<VisibilitySample> samples(records_.size());
+  ParallelForEach(int64_t(records_.size()), 1024, [&](int64_t i) {
+    const Record& record = records_[size_t(i)];
+    if (!(record.direct.unoccluded > 0)) return;
+    samples[size_t(i)] = {record.at.position,
+                          record.at.normal,
+                          record.direct.fromEmitters / record.direct.unoccluded,
+                          record.direct.squares,
+                          float(record.directRays),
+                          record.apart};
+  });
+  const auto forNew = [&](const auto& call) {
+    ParallelForEach(int64_t(records_.size()) - first, 256,
+                    [&](int64_t i) { call(int32_t(first + i)); });
+  };
+  forNew([&](int32_t i) { records_[size_t(i)].apart = StandsApart(samples, neighbours, i); });
+  forNew([&](int32_t i) { samples[size_t(i)].apart = records_[size_t(i)].apart; });
+  forNew([&](int32_t i) {
+    const Spectrum visible = FilterVisibility(samples, neighbours, i);
+    Record& record = records_[size_t(i)];
+    for (int band = 0; band < 3; ++band) {
+      const float fromLights = record.direct.irradiance[band] - record.direct.fromEmitters[band];
+      record.shared[band] = std::max(0.f, fromLights) + visible[band] * record.direct.unoccluded;
+    }
+  });
 }
 
 // What the bounced light is, all neighbours heard.

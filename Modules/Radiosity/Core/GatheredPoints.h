@@ -8,6 +8,7 @@
 #include "Common/Core/Progress.h"
 #include "Radiosity/Core/FinalGather.h"
 #include "Radiosity/Core/IrradianceFilter.h"
+#include "Radiosity/Core/VisibilityFilter.h"
 
 namespace lambert {
 
@@ -54,9 +55,13 @@ class GatheredPoints {
     GatherPoint at;
     bool isProbe = false;
     DirectSample direct;
+    /// Rays to emitters behind `direct`: without the first ones, which it has where no more were
+    /// cast. Those tell neighbours of their shadows, and what decides must not count.
     int directRays = 0;
     BounceSum bounces;
     FilteredIrradiance bounced;
+    float apart = 1;  ///< in which part `direct` tells of this place alone, see StandsApart
+    Spectrum shared;  ///< direct light, all neighbours heard, W/m2
   };
 
   int32_t FindOrAdd(const Point& point);
@@ -65,6 +70,7 @@ class GatheredPoints {
   double ScatterOfShadow(int32_t record, const SampleNeighbours& neighbours, double mean) const;
   void CastMoreToEmitters(const std::vector<int>& more, int32_t first, int64_t* rays);
   void LookIntoPenumbrae(int32_t first, const SampleNeighbours& neighbours, int64_t* rays);
+  void ShareDirect(int32_t first, const SampleNeighbours& neighbours);
   void Share(int32_t first, const SampleNeighbours& neighbours);
   void GatherWhereItScatters(int32_t first, const SampleNeighbours& neighbours, int64_t* rays,
                              const ProgressCallback& progress);

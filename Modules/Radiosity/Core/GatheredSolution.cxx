@@ -42,8 +42,8 @@ GatheredSolutionOptions GatherFor(double error) {
   points.firstRays = kLeastFirstRays;
   while (points.firstRays < kFirstRays / error) points.firstRays *= 2;
   points.mostRays = kMostOfFirst * points.firstRays;
-  points.directRays = std::min(64, std::max(8, int(0.8 / error)));
-  points.penumbraRays = std::min(256, std::max(8, int(1.2 / error)));
+  points.directRays = std::min(64, std::max(4, int(0.4 / error)));
+  points.penumbraRays = std::min(256, std::max(6, int(0.6 / error)));
   return options;
 }
 

@@ -1,0 +1,113 @@
+#include "Radiosity/Core/VisibilityFilter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "Radiosity/Core/PlaneFit.h"
+
+namespace lambert {
+
+namespace {
+
+/// Neighbours that are asked, and how many have to tell: fewer may all be mistaken.
+constexpr int kMost = 16, kLeast = 8;
+/// The place itself may be so many standard deviations off the plane and still be taken for
+/// scatter.
+constexpr double kOff = 2;
+/// What is thought of the variance of a ray before it is known counts as that of one ray.
+constexpr double kPriorVariance = 0.25;
+
+/// A sample and its neighbours in its plane, in units of the distance of the farthest.
+struct Neighbourhood {
+  std::array<PlanePoint, kMost + 1> places;
+  std::array<const VisibilitySample*, kMost + 1> samples;
+  int count = 0;
+
+  Neighbourhood(const std::vector<VisibilitySample>& all, const SampleNeighbours& neighbours,
+                int32_t sample) {
+    const VisibilitySample& own = all[size_t(sample)];
+    const int32_t* const begin = neighbours.begin(sample);
+    const int32_t* const end = std::min(neighbours.end(sample), begin + kMost);
+    if (!(own.rays > 0) || begin == end) return;
+    const float square = LengthSquared(all[size_t(end[-1])].position - own.position);
+    if (!(square > 0)) return;
+    Vec3f s, t;
+    CoordinateSystem(own.normal, &s, &t);
+    const auto add = [&](const VisibilitySample& one) {
+      if (!(one.rays > 0)) return;
+      const Vec3f offset = (one.position - own.position) / std::sqrt(square);
+      const float near = std::max(0.f, 1 - LengthSquared(offset));
+      samples[size_t(count)] = &one;
+      places[size_t(count++)] = {Dot(offset, s), Dot(offset, t), one.rays * near * near};
+    };
+    add(own);
+    for (const int32_t* other = begin; other != end; ++other) add(all[size_t(*other)]);
+  }
+  bool Tells() const { return count > kLeast; }
+  /// The variance of a ray, as all of them together tell.
+  double Variance() const {
+    double rays = 0, mean = 0, squares = 0;
+    for (int i = 0; i < count; ++i) {
+      const VisibilitySample& one = *samples[size_t(i)];
+      rays += double(one.rays);
+      mean += double(one.rays) * double(one.visible.Mean());
+      squares += double(one.rays) * double(one.squares);
+    }
+    return (std::max(0., squares - mean * mean / rays) + kPriorVariance) / (rays + 1);
+  }
+};
+
+}  // namespace
+
+float StandsApart(const std::vector<VisibilitySample>& samples, const SampleNeighbours& neighbours,
+                  int32_t sample) {
+  const Neighbourhood near(samples, neighbours, sample);
+  if (!near.Tells()) return 1;
+  std::array<float, kMost + 1> values;
+  for (int i = 0; i < near.count; ++i) {
+    values[size_t(i)] = near.samples[size_t(i)]->visible.Mean();
+  }
+  const PlaneFit fit(near.places.data(), near.count);
+  const auto plane = fit.Through(near.places.data(), values.data(), near.count);
+
+  // How far they are off it, in parts of what rays scatter: all, and this one.
+  const double variance = near.Variance();
+  double off = 0, weights = 0, ownOff = 0;
+  for (int i = 0; i < near.count; ++i) {
+    const PlanePoint& p = near.places[size_t(i)];
+    const float rays = near.samples[size_t(i)]->rays;
+    const double difference =
+        double(values[size_t(i)] - plane[0] - plane[1] * p.u - plane[2] * p.v);
+    const double parts = difference * difference * double(rays) / variance;
+    off += double(p.weight / rays) * parts, weights += double(p.weight / rays);
+    if (i == 0) ownOff = parts;
+  }
+  const double most = std::max(off / weights, ownOff / (kOff * kOff));
+  return float(std::min(1.0, std::max(0.0, most - 1)));
+}
+
+Spectrum FilterVisibility(const std::vector<VisibilitySample>& samples,
+                          const SampleNeighbours& neighbours, int32_t sample) {
+  const VisibilitySample& own = samples[size_t(sample)];
+  if (own.apart >= 1) return own.visible;
+  Neighbourhood near(samples, neighbours, sample);
+  if (!near.Tells()) return own.visible;
+
+  // The plane through what does not stand apart.
+  double weights = 0;
+  for (int i = 0; i < near.count; ++i) {
+    near.places[size_t(i)].weight *= 1 - near.samples[size_t(i)]->apart;
+    weights += double(near.places[size_t(i)].weight);
+  }
+  if (!(weights > 0)) return own.visible;
+  const PlaneFit fit(near.places.data(), near.count);
+  Spectrum fitted;
+  for (int i = 0; i < near.count; ++i) {
+    fitted += near.samples[size_t(i)]->visible * fit.WeightAtMiddle(near.places[size_t(i)]);
+  }
+  for (int band = 0; band < 3; ++band) fitted[band] = std::max(0.f, fitted[band]);
+  return fitted + (own.visible - fitted) * own.apart;
+}
+
+}  // namespace lambert
