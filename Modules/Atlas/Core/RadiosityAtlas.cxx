@@ -26,13 +26,19 @@ constexpr int kAttempts = 10;
 constexpr double kSafety = 0.99;
 /// Pages that an atlas may have where its texels' size is given.
 constexpr int kMostPages = 256;
-/// Lookups between texels take in what lies half a texel around a place.
-constexpr double kHalfTexel = 0.5;
+/// Texels around a chart that are its own, whatever the padding; and those by which it may be off,
+/// as texture coordinates are in single precision.
+constexpr double kLeastMargin = 0.5, kRounding = 1. / 256;
 /// Texels of a level that a lookup there takes in at most, to one side of its place.
 constexpr double kReach = 1.5;
 
 /// Texels that a chart may be long.
 double Room(const AtlasOptions& options) { return options.pageSize - 2 * PaddingOf(options) - 2; }
+
+/// Texels around a chart that it takes.
+double Margin(const AtlasOptions& options) {
+  return std::max(kLeastMargin, double(PaddingOf(options))) + kRounding;
+}
 
 /// Texels a metre: those asked for, or as many as charts of `area`, m2, may fill the pages with.
 double FirstDensity(const AtlasOptions& options, double area) {
@@ -111,14 +117,16 @@ class Layout {
     return PackCharts(masks, options_.pageSize);
   }
 
-  /// Texels from the lower left corner of what the chart takes.
+  /// Texels from the lower left corner of what the chart takes, amid which it lies.
   Vec2d TexelsOf(size_t chart, const Vec2f& place, double density) const {
-    const double margin = PaddingOf(options_) + kHalfTexel;
-    return rectangles_[chart].Inside(place) * density + Vec2d(margin, margin);
+    const Rectangle& r = rectangles_[chart];
+    const std::array<int, 2> size = this->Size(chart, density);
+    const Vec2d rest(size[0] - r.width * density, size[1] - r.height * density);
+    return r.Inside(place) * density + rest * 0.5;
   }
   /// The texels that it takes in all.
   std::array<int, 2> Size(size_t chart, double density) const {
-    const double margin = 2 * (PaddingOf(options_) + kHalfTexel);
+    const double margin = 2 * Margin(options_);
     return {int(std::ceil(rectangles_[chart].width * density + margin)),
             int(std::ceil(rectangles_[chart].height * density + margin))};
   }
@@ -129,38 +137,15 @@ class Layout {
     const Chart& chart = set_.charts[index];
     const auto [width, height] = this->Size(index, density);
     ChartMask mask(width, height);
-    const double margin = PaddingOf(options_) + kHalfTexel;
     for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
-      Vec2d p[3];
+      std::array<Vec2d, 3> corners;
       for (size_t c = 0; c < 3; ++c) {
-        p[c] = this->TexelsOf(index, set_.places[size_t(f)][c], density);
+        corners[c] = this->TexelsOf(index, set_.places[size_t(f)][c], density);
       }
-      const double left = std::min({p[0].x, p[1].x, p[2].x}) - margin;
-      const double right = std::max({p[0].x, p[1].x, p[2].x}) + margin;
-      for (int x = std::max(0, int(left)); x <= std::min(width - 1, int(right)); ++x) {
-        double low = height, high = 0;
-        for (int c = 0; c < 3; ++c) {
-          IncludeEdge(p[c], p[(c + 1) % 3], x - margin, x + 1 + margin, &low, &high);
-        }
-        if (low > high) continue;
-        mask.Take(x, std::max(0, int(std::floor(low - margin))),
-                  std::min(height, int(std::ceil(high + margin))));
-      }
+      ForEachColumnNear(corners, Margin(options_), width, height,
+                        [&](int x, int low, int high) { mask.Take(x, low, high); });
     }
     return mask;
-  }
-
-  /// What an edge takes between two upright lines.
-  static void IncludeEdge(Vec2d a, Vec2d b, double left, double right, double* low, double* high) {
-    if (a.x > b.x) std::swap(a, b);
-    if (b.x < left || a.x > right) return;
-    const auto at = [&](double x) {
-      if (!(b.x > a.x)) return a.y;
-      return a.y + (b.y - a.y) * std::min(1., std::max(0., (x - a.x) / (b.x - a.x)));
-    };
-    const double y[2] = {at(left), b.x > a.x ? at(right) : b.y};
-    *low = std::min({*low, y[0], y[1]});
-    *high = std::max({*high, y[0], y[1]});
   }
 
   const ChartSet& set_;
