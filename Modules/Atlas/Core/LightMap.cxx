@@ -248,7 +248,7 @@ struct SeamPoint {
   std::array<Footprint, 2> footprints;
 };
 
-/// About a point a texel along every edge between two charts whose faces share its points: what
+/// About a point a texel along every cut edge whose faces share its points: what
 /// they do not share is creased, and light may differ.
 std::vector<SeamPoint> FindSeams(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
                                  const std::vector<int32_t>& chartOfFace) {
@@ -260,7 +260,6 @@ std::vector<SeamPoint> FindSeams(const TriangleMesh& mesh, const RadiosityAtlas&
     const std::array<size_t, 2> faces = {corner / 3, other / 3};
     const std::array<size_t, 2> charts = {size_t(chartOfFace[faces[0]]),
                                           size_t(chartOfFace[faces[1]])};
-    if (charts[0] == charts[1]) continue;
     const size_t c = corner % 3, next = (c + 1) % 3, d = other % 3, last = (d + 1) % 3;
     if (mesh.triangles[faces[0]][c] != mesh.triangles[faces[1]][last]) continue;
     if (mesh.triangles[faces[0]][next] != mesh.triangles[faces[1]][d]) continue;
@@ -268,6 +267,7 @@ std::vector<SeamPoint> FindSeams(const TriangleMesh& mesh, const RadiosityAtlas&
                                        atlas.textureCoords[faces[1]][last]};
     const std::array<Vec2f, 2> to = {atlas.textureCoords[faces[0]][next],
                                      atlas.textureCoords[faces[1]][d]};
+    if (charts[0] == charts[1] && from[0] == from[1] && to[0] == to[1]) continue;
     float length = 0;
     for (size_t side = 0; side < 2; ++side) {
       length = std::max(length, std::hypot(to[side].x - from[side].x, to[side].y - from[side].y));

@@ -17,12 +17,12 @@ namespace lambert {
 namespace {
 
 /// The part of the pages that charts are first thought to fill; what is left of them at the end.
-constexpr double kFirstFill = 0.7, kLeastFill = 0.97;
+constexpr double kFirstFill = 0.7, kLeastFill = 0.98;
 /// A chart may leave so much empty of its rectangle, of the area of all.
 constexpr double kMostEmpty = 0.01;
 /// Attempts at the size of the texels that fills the pages, the first of them to find any.
 constexpr int kAttempts = 10;
-/// What the next attempt shrinks by beyond what the last one tells.
+/// The part of the pages that the next attempt aims at.
 constexpr double kSafety = 0.99;
 /// Pages that an atlas may have where its texels' size is given.
 constexpr int kMostPages = 256;
@@ -60,7 +60,7 @@ struct Rectangle {
 
 Rectangle RectangleOf(const ChartSet& set, const Chart& chart) {
   std::vector<Vec2f> points;
-  for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+  for (const int32_t f : set.FacesOf(chart)) {
     for (const Vec2f& place : set.places[size_t(f)]) points.push_back(place);
   }
   Rectangle rectangle;
@@ -117,6 +117,15 @@ class Layout {
     return PackCharts(masks, options_.pageSize);
   }
 
+  /// By how much `density` may grow so that charts take `factor` times as many texels as they do in
+  /// `packing`: those within them by its square, those around them in proportion.
+  double Growth(double density, const Packing& packing, double factor) const {
+    const double taken = double(packing.takenTexels), within = area_ * density * density;
+    const double around = std::max(0., taken - within);
+    if (!(within > 0)) return std::sqrt(factor);
+    return (std::sqrt(around * around + 4 * within * factor * taken) - around) / (2 * within);
+  }
+
   /// Texels from the lower left corner of what the chart takes, amid which it lies.
   Vec2d TexelsOf(size_t chart, const Vec2f& place, double density) const {
     const Rectangle& r = rectangles_[chart];
@@ -137,7 +146,7 @@ class Layout {
     const Chart& chart = set_.charts[index];
     const auto [width, height] = this->Size(index, density);
     ChartMask mask(width, height);
-    for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+    for (const int32_t f : set_.FacesOf(chart)) {
       std::array<Vec2d, 3> corners;
       for (size_t c = 0; c < 3; ++c) {
         corners[c] = this->TexelsOf(index, set_.places[size_t(f)][c], density);
@@ -190,7 +199,7 @@ double FillPages(const Layout& layout, const AtlasOptions& options, Packing* pac
     }
     if (best > kLeastFill * tooDense) break;
     // As this attempt was full, or else between what fitted and what did not.
-    const double next = kSafety * density * std::sqrt(options.pages / fill);
+    const double next = density * layout.Growth(density, packed, kSafety * options.pages / fill);
     const bool isBetween = next > best && next < tooDense;
     density = std::min(layout.MostDensity(), isBetween ? next : 0.5 * (best + tooDense));
   }
@@ -265,7 +274,7 @@ RadiosityAtlas PackAtlas(ChartSet set, const AtlasOptions& options,
     const Chart& chart = atlas.set.charts[size_t(i)];
     const ChartPlace& place = packing.places[size_t(i)];
     atlas.pageOfChart[size_t(i)] = place.page;
-    for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+    for (const int32_t f : atlas.set.FacesOf(chart)) {
       for (size_t c = 0; c < 3; ++c) {
         Vec2d p = layout.TexelsOf(size_t(i), atlas.set.places[size_t(f)][c], density);
         std::array<int, 2> size = layout.Size(size_t(i), density);
@@ -294,7 +303,8 @@ std::vector<Vec2f> SplitAtCharts(const RadiosityAtlas& atlas, TriangleMesh* mesh
   std::map<std::array<int32_t, 2>, int32_t> pointOfCorner;  // By place in the chart and old point.
   for (const Chart& chart : atlas.set.charts) {
     pointOfCorner.clear();
-    for (size_t f = size_t(chart.firstFace); f < size_t(chart.firstFace + chart.faceCount); ++f) {
+    for (const int32_t face : atlas.set.FacesOf(chart)) {
+      const size_t f = size_t(face);
       for (size_t c = 0; c < 3; ++c) {
         const int32_t old = mesh->triangles[f][c];
         const auto [place, isNew] = pointOfCorner.try_emplace({atlas.set.corners[f][c], old},
@@ -339,7 +349,7 @@ std::vector<int32_t> FacesOfTexels(const RadiosityAtlas& atlas, int page) {
   for (size_t i = 0; i < atlas.set.charts.size(); ++i) {
     if (atlas.pageOfChart[i] != page) continue;
     const Chart& chart = atlas.set.charts[i];
-    for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+    for (const int32_t f : atlas.set.FacesOf(chart)) {
       std::array<Vec2d, 3> corners;
       for (size_t c = 0; c < 3; ++c) {
         corners[c] = Vec2d(atlas.textureCoords[size_t(f)][c]) * double(size);

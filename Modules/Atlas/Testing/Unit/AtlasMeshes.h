@@ -35,7 +35,7 @@ inline TriangleMesh TwoFlatGrids(int cells) {
 /// All of a mesh as one chart.
 inline ChartMesh WholeChart(TriangleMesh mesh) {
   mesh.surfaceId.assign(mesh.triangles.size(), 0);
-  return MakeChartMesh(mesh, FindNeighbours(mesh), 0, int32_t(mesh.FaceCount()));
+  return MakeChartMesh(mesh, FindNeighbours(mesh), FacesFrom(0, int32_t(mesh.FaceCount())));
 }
 
 }  // namespace lambert
