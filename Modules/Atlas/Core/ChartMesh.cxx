@@ -14,6 +14,22 @@ namespace {
 
 int32_t NextCorner(int32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
+/// Lines from vertex to vertex; `next` by vertex, -1 where it is on none.
+std::vector<std::vector<int32_t>> ClosedLines(std::vector<int32_t> next) {
+  std::vector<std::vector<int32_t>> lines;
+  for (size_t vertex = 0; vertex < next.size(); ++vertex) {
+    if (next[vertex] < 0) continue;
+    std::vector<int32_t> line;
+    for (int32_t v = int32_t(vertex); next[size_t(v)] >= 0;) {
+      line.push_back(v);
+      std::swap(v, next[size_t(v)]);
+      next[size_t(line.back())] = -1;
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::vector<int32_t> FindNeighbours(const TriangleMesh& mesh) {
@@ -106,16 +122,7 @@ ChartMesh MakeChartMesh(const TriangleMesh& mesh, const std::vector<int32_t>& ne
     if (neighbour(corner) >= 0) continue;
     next[size_t(vertexOfCorner[size_t(corner)])] = vertexOfCorner[size_t(NextCorner(corner))];
   }
-  for (size_t vertex = 0; vertex < next.size(); ++vertex) {
-    if (next[vertex] < 0) continue;
-    std::vector<int32_t> line;
-    for (int32_t v = int32_t(vertex); next[size_t(v)] >= 0;) {
-      line.push_back(v);
-      std::swap(v, next[size_t(v)]);
-      next[size_t(line.back())] = -1;
-    }
-    chart.borders.push_back(std::move(line));
-  }
+  chart.borders = ClosedLines(std::move(next));
 
   // Vertices - edges + faces = 2 - 2 genus - borders.
   const int64_t edges = corners - innerEdges;

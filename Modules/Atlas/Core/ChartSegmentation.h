@@ -61,10 +61,10 @@ std::vector<int32_t> ChartOfFace(const ChartSet& set);
 /// Of all its charts; 1 where there are none.
 float LargestStretch(const ChartSet& set);
 
-/// The largest clusters that a map lays flat without overlaps and within the stretch. `mesh` is in
-/// the order of `tree`. A face alone always is a chart. Does not depend on the number of threads.
-/// Throws Error for options out of range and where the tree is not that
-/// of the mesh, Cancelled.
+/// The largest clusters that a map lays flat without overlaps and within the stretch, and small
+/// neighbours of them joined. `mesh` is in the order of `tree`. A face alone always is a chart.
+/// Does not depend on the number of threads. Throws Error for options out of range and where the
+/// tree is not that of the mesh, Cancelled.
 ChartSet CutIntoCharts(const TriangleMesh& mesh, const ClusterTree& tree,
                        const ChartOptions& options = {}, const ProgressCallback& progress = {});
 
