@@ -28,26 +28,38 @@ vtkDataArray* RequireArray(vtkFieldData* data, const char* name, int components,
                                "the output of vtkRadiosityAtlas");
 }
 
-/// Charts and their pages. Their faces stand together, in the order of their numbers.
+/// Charts and their pages. Charts are numbered by their first faces.
 void ReadCharts(vtkCellData* cells, size_t faces, RadiosityAtlas* atlas) {
   const std::vector<int32_t> charts =
       NumbersFromArray<int32_t>(RequireArray(cells, Names::ChartId(), 1, faces));
   const std::vector<int32_t> pages =
       NumbersFromArray<int32_t>(RequireArray(cells, Names::PageId(), 1, faces));
   for (size_t face = 0; face < faces; ++face) {
-    const int32_t last = static_cast<int32_t>(atlas->set.charts.size()) - 1;
-    if (charts[face] != last) {
-      if (charts[face] != last + 1 || pages[face] < 0) {
-        throw Error("The charts of the mesh are out of order at face " + std::to_string(face) +
-                    "; it takes the output of vtkRadiosityAtlas as it is.");
-      }
-      Chart chart;
-      chart.firstFace = static_cast<int32_t>(face);
-      atlas->set.charts.push_back(chart);
+    const int32_t count = static_cast<int32_t>(atlas->set.charts.size());
+    if (charts[face] < 0 || charts[face] > count || pages[face] < 0) {
+      throw Error("The charts of the mesh are out of order at face " + std::to_string(face) +
+                  "; it takes the output of vtkRadiosityAtlas as it is.");
+    }
+    if (charts[face] == count) {
+      atlas->set.charts.emplace_back();
       atlas->pageOfChart.push_back(pages[face]);
       atlas->pages = std::max(atlas->pages, pages[face] + 1);
     }
-    ++atlas->set.charts.back().faceCount;
+    ++atlas->set.charts[static_cast<size_t>(charts[face])].faceCount;
+  }
+
+  // The faces of each, side by side.
+  std::vector<int32_t> next;
+  int32_t first = 0;
+  for (Chart& chart : atlas->set.charts) {
+    chart.first = first;
+    next.push_back(first);
+    first += chart.faceCount;
+  }
+  atlas->set.faces.resize(faces);
+  for (size_t face = 0; face < faces; ++face) {
+    atlas->set.faces[static_cast<size_t>(next[static_cast<size_t>(charts[face])]++)] =
+        static_cast<int32_t>(face);
   }
 }
 
@@ -159,8 +171,10 @@ void PolyDataFromAtlas(const RadiosityAtlas& atlas, Scene scene, vtkPolyData* ou
   pages->SetNumberOfValues(scene.mesh.FaceCount());
   for (size_t i = 0; i < atlas.set.charts.size(); ++i) {
     const Chart& chart = atlas.set.charts[i];
-    std::fill_n(charts->GetPointer(chart.firstFace), chart.faceCount, static_cast<int>(i));
-    std::fill_n(pages->GetPointer(chart.firstFace), chart.faceCount, atlas.pageOfChart[i]);
+    for (const int32_t face : atlas.set.FacesOf(chart)) {
+      charts->SetValue(face, static_cast<int>(i));
+      pages->SetValue(face, atlas.pageOfChart[i]);
+    }
   }
   output->GetCellData()->AddArray(charts);
   output->GetCellData()->AddArray(pages);

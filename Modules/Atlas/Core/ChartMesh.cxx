@@ -1,6 +1,7 @@
 #include "Atlas/Core/ChartMesh.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 #include "Common/Core/DisjointSets.h"
@@ -12,6 +13,22 @@ namespace lambert {
 namespace {
 
 int32_t NextCorner(int32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+
+/// Lines from vertex to vertex; `next` by vertex, -1 where it is on none.
+std::vector<std::vector<int32_t>> ClosedLines(std::vector<int32_t> next) {
+  std::vector<std::vector<int32_t>> lines;
+  for (size_t vertex = 0; vertex < next.size(); ++vertex) {
+    if (next[vertex] < 0) continue;
+    std::vector<int32_t> line;
+    for (int32_t v = int32_t(vertex); next[size_t(v)] >= 0;) {
+      line.push_back(v);
+      std::swap(v, next[size_t(v)]);
+      next[size_t(line.back())] = -1;
+    }
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
 
 }  // namespace
 
@@ -56,14 +73,25 @@ std::vector<int32_t> FindNeighbours(const TriangleMesh& mesh) {
 }
 
 ChartMesh MakeChartMesh(const TriangleMesh& mesh, const std::vector<int32_t>& neighbours,
-                        int32_t firstFace, int32_t faceCount) {
-  // Corners at both ends of an inner edge are one vertex.
+                        const std::vector<int32_t>& faces) {
+  // Corners of the mesh, by their number within the chart and back; those of its faces alone.
   ChartMesh chart;
-  const int32_t first = 3 * firstFace, corners = 3 * faceCount;
-  const auto neighbour = [&](int32_t corner) {
-    const int32_t other = neighbours[size_t(first + corner)];
-    return other >= first && other < first + corners ? other - first : -1;
+  const int32_t faceCount = int32_t(faces.size()), corners = 3 * faceCount;
+  const auto cornerOfMesh = [&](int32_t corner) {
+    return size_t(3 * faces[size_t(corner / 3)] + corner % 3);
   };
+  const auto neighbour = [&](int32_t corner) {
+    const int32_t other = neighbours[cornerOfMesh(corner)];
+    if (other < faces.front() * 3) return -1;
+    // Most often they stand side by side.
+    int32_t face = other / 3 - faces.front();
+    if (face >= faceCount || faces[size_t(face)] != other / 3) {
+      face = int32_t(std::lower_bound(faces.begin(), faces.end(), other / 3) - faces.begin());
+    }
+    return face < faceCount && faces[size_t(face)] == other / 3 ? face * 3 + other % 3 : -1;
+  };
+
+  // Corners at both ends of an inner edge are one vertex.
   DisjointSets vertices{size_t(corners)}, pieces{size_t(faceCount)};
   int64_t innerEdges = 0, pieceCount = faceCount;
   for (int32_t corner = 0; corner < corners; ++corner) {
@@ -82,7 +110,7 @@ ChartMesh MakeChartMesh(const TriangleMesh& mesh, const std::vector<int32_t>& ne
     const int32_t root = vertices.Find(corner);
     if (root == corner) {
       vertexOfCorner[size_t(corner)] = int32_t(chart.positions.size());
-      chart.positions.push_back(Vec3d(mesh.Corner(firstFace + corner / 3, corner % 3)));
+      chart.positions.push_back(Vec3d(mesh.Corner(faces[size_t(corner / 3)], corner % 3)));
     }
     vertexOfCorner[size_t(corner)] = vertexOfCorner[size_t(root)];
     chart.triangles[size_t(corner / 3)][size_t(corner % 3)] = vertexOfCorner[size_t(corner)];
@@ -94,16 +122,7 @@ ChartMesh MakeChartMesh(const TriangleMesh& mesh, const std::vector<int32_t>& ne
     if (neighbour(corner) >= 0) continue;
     next[size_t(vertexOfCorner[size_t(corner)])] = vertexOfCorner[size_t(NextCorner(corner))];
   }
-  for (size_t vertex = 0; vertex < next.size(); ++vertex) {
-    if (next[vertex] < 0) continue;
-    std::vector<int32_t> line;
-    for (int32_t v = int32_t(vertex); next[size_t(v)] >= 0;) {
-      line.push_back(v);
-      std::swap(v, next[size_t(v)]);
-      next[size_t(line.back())] = -1;
-    }
-    chart.borders.push_back(std::move(line));
-  }
+  chart.borders = ClosedLines(std::move(next));
 
   // Vertices - edges + faces = 2 - 2 genus - borders.
   const int64_t edges = corners - innerEdges;
@@ -111,6 +130,12 @@ ChartMesh MakeChartMesh(const TriangleMesh& mesh, const std::vector<int32_t>& ne
   chart.isConnected = pieceCount == 1;
   chart.genus = (2 - euler - int64_t(chart.borders.size())) / 2;
   return chart;
+}
+
+std::vector<int32_t> FacesFrom(int32_t first, int32_t count) {
+  std::vector<int32_t> faces(size_t(count), 0);
+  std::iota(faces.begin(), faces.end(), first);
+  return faces;
 }
 
 FlatTriangle Flatten(const ChartMesh& chart, size_t triangle) {

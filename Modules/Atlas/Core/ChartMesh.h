@@ -52,9 +52,11 @@ struct ChartMesh {
   bool IsFlat() const { return isConnected && genus == 0 && !borders.empty(); }
 };
 
-/// The faces [firstFace, firstFace + faceCount); `neighbours` as FindNeighbours gives them.
+/// Of `faces`, ascending; `neighbours` as FindNeighbours gives them.
 ChartMesh MakeChartMesh(const TriangleMesh& mesh, const std::vector<int32_t>& neighbours,
-                        int32_t firstFace, int32_t faceCount);
+                        const std::vector<int32_t>& faces);
+/// Numbers [first, first + count).
+std::vector<int32_t> FacesFrom(int32_t first, int32_t count);
 
 /// A triangle in its own plane: its longest edge from vertex `first` along x, and the place of the
 /// vertex that lies opposite.

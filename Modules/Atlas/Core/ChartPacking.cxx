@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
@@ -16,9 +17,12 @@ namespace {
 constexpr double kWaste = 0.5;
 /// Holes are looked for whenever charts have left this part of a page empty within or below them.
 constexpr double kEmptyPart = 1. / 64;
-/// Holes are rectangles of cells, so many along a page; at most so many of them, the largest first.
-constexpr int kCells = 128, kMostHoles = 64;
-constexpr int kLeastHole = 4;  ///< texels along its shorter side
+/// Holes are rectangles of cells: so many texels along a cell, or more, that so many are along a
+/// page at most.
+constexpr int kCell = 4, kMostCells = 512;
+/// At most so many holes, found in so many passes, the largest first.
+constexpr int kMostHoles = 512, kPasses = 4;
+constexpr int kLeastHole = 6;  ///< texels along its shorter side
 
 /// A mask, and what it takes of each column.
 struct Shape {
@@ -55,6 +59,7 @@ class Bin {
   Spot Find(const Shape& chart) const {
     Spot best;
     const int width = chart.Width();
+    if (chart.Height() > height_ - least_) return best;
     for (int x = 0; x + width <= int(top_.size()); ++x) {
       // As low as it falls.
       int y = 0;
@@ -77,6 +82,7 @@ class Bin {
       *empty += spot.y + chart.high[size_t(i)] - top_[size_t(spot.x + i)];
       top_[size_t(spot.x + i)] = spot.y + chart.high[size_t(i)];
     }
+    least_ = *std::min_element(top_.begin(), top_.end());
     return {x_ + spot.x, y_ + spot.y};
   }
 
@@ -84,7 +90,7 @@ class Bin {
   int Height() const { return *std::max_element(top_.begin(), top_.end()); }
 
  private:
-  int x_, y_, height_;
+  int x_, y_, height_, least_ = 0;
   std::vector<int> top_;
 };
 
@@ -108,29 +114,50 @@ class Page {
  private:
   struct Cells {
     int x = 0, y = 0, width = 0, height = 0;
+    int Area() const { return width * height; }
   };
 
-  /// The largest rectangles of cells that nothing takes.
+  /// The largest rectangles of cells that nothing takes, and the largest of what they leave.
   void FindHoles() {
-    const int cell = std::max(1, size_ / kCells), cells = size_ / cell;
+    const int cell = std::max(kCell, size_ / kMostCells), cells = size_ / cell;
+    const int least = (kLeastHole + cell - 1) / cell;
     std::vector<uint8_t> isFree(size_t(cells) * size_t(cells));
     ParallelForEach(cells, 8, [&](int64_t x) {
       for (int y = 0; y < cells; ++y) {
         isFree[size_t(x) * size_t(cells) + size_t(y)] = this->IsFree(int(x) * cell, y * cell, cell);
       }
     });
+    std::vector<Cells> found;
+    for (int pass = 0; pass < kPasses; ++pass) {
+      for (const Cells& hole : Rectangles(isFree, cells, least)) {
+        if (found.size() < kMostHoles && TakeCells(hole, cells, &isFree)) found.push_back(hole);
+      }
+    }
+    SortByArea(&found);
     holes_.clear();
     empty_ = 0;
-    for (int i = 0; i < kMostHoles; ++i) {
-      const Cells hole = Largest(isFree, cells);
-      if (std::min(hole.width, hole.height) * cell < kLeastHole) break;
-      for (int x = hole.x; x < hole.x + hole.width; ++x) {
-        for (int y = hole.y; y < hole.y + hole.height; ++y) {
-          isFree[size_t(x) * size_t(cells) + size_t(y)] = 0;
-        }
-      }
+    for (const Cells& hole : found) {
       holes_.emplace_back(hole.x * cell, hole.y * cell, hole.width * cell, hole.height * cell);
     }
+  }
+
+  static void SortByArea(std::vector<Cells>* holes) {
+    std::sort(holes->begin(), holes->end(), [](const Cells& a, const Cells& b) {
+      return std::make_tuple(-a.Area(), a.x, a.y, a.width) <
+             std::make_tuple(-b.Area(), b.x, b.y, b.width);
+    });
+  }
+
+  /// False where one of them is not free.
+  static bool TakeCells(const Cells& hole, int cells, std::vector<uint8_t>* isFree) {
+    const auto column = [&](int x) { return isFree->begin() + std::ptrdiff_t(x) * cells + hole.y; };
+    for (int x = hole.x; x < hole.x + hole.width; ++x) {
+      if (std::find(column(x), column(x) + hole.height, 0) != column(x) + hole.height) return false;
+    }
+    for (int x = hole.x; x < hole.x + hole.width; ++x) {
+      std::fill(column(x), column(x) + hole.height, uint8_t(0));
+    }
+    return true;
   }
 
   bool PutInto(const std::array<Shape, 4>& turned, Bin* bin, ChartPlace* place) {
@@ -167,10 +194,11 @@ class Page {
     return true;
   }
 
-  /// The rectangle of most free cells: under a histogram of free cells to the left, column by
-  /// column.
-  static Cells Largest(const std::vector<uint8_t>& isFree, int cells) {
-    Cells best;
+  /// Rectangles of free cells that no higher one and none further to the left holds, of `least`
+  /// cells along a side at least, the largest first: under a histogram of free cells to the left,
+  /// column by column.
+  static std::vector<Cells> Rectangles(const std::vector<uint8_t>& isFree, int cells, int least) {
+    std::vector<Cells> found;
     std::vector<int> run(size_t(cells) + 1, 0);  // Free cells to the left, by row; 0 at the end.
     std::vector<int> open;                       // Rows where a longer run began.
     for (int x = 0; x < cells; ++x) {
@@ -184,14 +212,14 @@ class Page {
           const int width = run[size_t(open.back())];
           open.pop_back();
           const int first = open.empty() ? 0 : open.back() + 1;
-          if (width * (y - first) > best.width * best.height) {
-            best = {x - width + 1, first, width, y - first};
-          }
+          if (std::min(width, y - first) < least) continue;
+          found.push_back({x - width + 1, first, width, y - first});
         }
         open.push_back(y);
       }
     }
-    return best;
+    SortByArea(&found);
+    return found;
   }
 
   int size_;
@@ -262,6 +290,7 @@ Packing PackCharts(const std::vector<ChartMask>& charts, int pageSize) {
   // Page after page; what does not fit waits for the next.
   Packing packing;
   packing.places.resize(charts.size());
+  for (const std::array<Shape, 4>& ways : turned) packing.takenTexels += ways[0].area;
   while (!order.empty()) {
     Page page(pageSize);
     std::vector<int32_t> left;

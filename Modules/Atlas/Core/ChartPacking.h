@@ -40,7 +40,8 @@ struct ChartPlace {
 struct Packing {
   std::vector<ChartPlace> places;  ///< by chart
   int pages = 0;
-  int lastHeight = 0;  ///< texels of the last page that are taken, from below
+  int lastHeight = 0;       ///< texels of the last page that are taken, from below
+  int64_t takenTexels = 0;  ///< by all charts
 };
 
 /// Charts on pages of `pageSize` x `pageSize` texels, the longest first; as many pages as it takes.

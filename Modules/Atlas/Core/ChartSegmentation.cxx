@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 
+#include "Atlas/Core/ChartJoining.h"
 #include "Atlas/Core/ConformalMap.h"
 #include "Clustering/Core/ClusterFrame.h"
 #include "Common/Core/Error.h"
@@ -15,6 +17,15 @@ namespace {
 
 /// A cluster is seen along its normal where that shortens no length by more than this factor.
 constexpr double kMostForeshortened = 1.1;
+/// Charts are joined where the smaller one has this part of the area of all at most: large ones
+/// have little to gain. More faces than these take too long, as they may be tried again and again.
+constexpr double kSmall = 1. / 500;
+constexpr size_t kMostFaces = 1 << 14;
+/// Laid flat together they may take less than side by side as they are, by about this factor.
+constexpr double kMostGuessed = 1.1;
+/// Two charts become one whose smallest rectangle is as large as theirs together, times this, at
+/// most: borders are ragged.
+constexpr double kMostJoined = 1.25;
 
 /// One face at a place of its own; that it has no area does no harm.
 std::vector<Vec2d> MapOfFace(const ChartMesh& chart) {
@@ -54,14 +65,39 @@ double LongestOf(const ChartOptions& options) {
   return options.longest > 0 ? options.longest : std::numeric_limits<double>::max();
 }
 
-/// Its smallest rectangle has no more empty space.
-bool IsFull(const std::vector<Vec2d>& map, double area, double mostEmpty) {
-  if (!(mostEmpty > 0)) return true;
+/// m2, of the smallest rectangle.
+double RectangleAbout(const std::vector<Vec2d>& map) {
   std::vector<Vec2f> points;
   for (const Vec2d& p : map) points.emplace_back(p);
   const Vec2f half = MinimumAreaRectangle(points).halfExtent;
-  return 4 * double(half.x) * double(half.y) - area <= mostEmpty;
+  return 4 * double(half.x) * double(half.y);
 }
+
+/// Of all triangles, each with its normal, m2.
+Vec3d VectorAreaOf(const ChartMesh& mesh) {
+  Vec3d sum;
+  for (const auto& t : mesh.triangles) {
+    const Vec3d& a = mesh.positions[size_t(t[0])];
+    sum = sum + Cross(mesh.positions[size_t(t[1])] - a, mesh.positions[size_t(t[2])] - a) * 0.5;
+  }
+  return sum;
+}
+
+double AreaOf(const ChartMesh& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3d& a = mesh.positions[size_t(t[0])];
+    sum += 0.5 * Length(Cross(mesh.positions[size_t(t[1])] - a, mesh.positions[size_t(t[2])] - a));
+  }
+  return sum;
+}
+
+/// Faces that a chart is made of, and what is known of it.
+struct Piece {
+  Chart chart;  ///< without corners: they cannot be laid flat
+  std::vector<int32_t> faces;
+  double rectangle = 0;  ///< m2, of the smallest about it
+};
 
 class Segmentation {
  public:
@@ -70,26 +106,48 @@ class Segmentation {
     set_.places.resize(size_t(mesh.FaceCount()));
     set_.corners.resize(size_t(mesh.FaceCount()));
     set_.options = options;
+    for (const int32_t root : tree.surfaceRoots) area_ += double(tree.nodes[size_t(root)].area);
   }
 
-  /// Clusters of one level of the tree after the other; those that fail hand on to their children.
   ChartSet Run(const ProgressCallback& progress) {
+    this->CutDown(progress);
+    const auto before = [](const Piece& a, const Piece& b) {
+      return a.faces.front() < b.faces.front();
+    };
+    std::sort(pieces_.begin(), pieces_.end(), before);
+    this->Join(progress);
+    for (Piece& piece : pieces_) {
+      if (piece.faces.empty()) continue;
+      piece.chart.first = int32_t(set_.faces.size());
+      piece.chart.faceCount = int32_t(piece.faces.size());
+      set_.faces.insert(set_.faces.end(), piece.faces.begin(), piece.faces.end());
+      set_.charts.push_back(piece.chart);
+    }
+    return std::move(set_);
+  }
+
+ private:
+  /// Clusters of one level of the tree after the other; those that fail hand on to their children.
+  void CutDown(const ProgressCallback& progress) {
     std::vector<int32_t> open = tree_.surfaceRoots;
-    int64_t done = 0;
+    size_t done = 0;
     while (!open.empty()) {
       const double fraction = double(done) / double(std::max<int64_t>(1, mesh_.FaceCount()));
-      if (!Report(progress, fraction, "cutting into charts")) throw Cancelled();
-      std::vector<Chart> flat(open.size());
+      if (!Report(progress, 0.8 * fraction, "cutting into charts")) throw Cancelled();
+      std::vector<Piece> flat(open.size());
       std::vector<Refusal> refusals(open.size());
       ParallelForEach(int64_t(open.size()), 1, [&](int64_t i) {
-        flat[size_t(i)] = this->TryToFlatten(open[size_t(i)], &refusals[size_t(i)]);
+        const ClusterNode& node = tree_.nodes[size_t(open[size_t(i)])];
+        flat[size_t(i)] =
+            this->TryToFlatten(FacesFrom(node.firstFace, node.faceCount),
+                               std::numeric_limits<double>::max(), &refusals[size_t(i)]);
       });
       for (const Refusal& refusal : refusals) this->Narrow(refusal);
       std::vector<int32_t> children;
       for (size_t i = 0; i < open.size(); ++i) {
-        if (flat[i].cornerCount > 0) {
-          set_.charts.push_back(flat[i]);
-          done += flat[i].faceCount;
+        if (flat[i].chart.cornerCount > 0) {
+          done += flat[i].faces.size();
+          pieces_.push_back(std::move(flat[i]));
           continue;
         }
         const int32_t child = tree_.nodes[size_t(open[i])].child;
@@ -98,12 +156,97 @@ class Segmentation {
       }
       open = std::move(children);
     }
-    std::sort(set_.charts.begin(), set_.charts.end(),
-              [](const Chart& a, const Chart& b) { return a.firstFace < b.firstFace; });
-    return std::move(set_);
   }
 
- private:
+  /// Neighbours become one chart where that leaves no more empty than the two do.
+  void Join(const ProgressCallback& progress) {
+    std::vector<int32_t> chartOfFace(size_t(mesh_.FaceCount()), 0);
+    for (size_t i = 0; i < pieces_.size(); ++i) {
+      for (const int32_t face : pieces_[i].faces) chartOfFace[size_t(face)] = int32_t(i);
+    }
+    const auto tryAll = [&](const std::vector<std::array<int32_t, 2>>& pairs) {
+      if (!Report(progress, 0.8, "joining charts")) throw Cancelled();
+      std::vector<uint8_t> isJoined(pairs.size(), 0);
+      std::vector<Refusal> refusals(pairs.size());
+      ParallelForEach(int64_t(pairs.size()), 1, [&](int64_t i) {
+        isJoined[size_t(i)] =
+            this->TryToJoin(&pieces_[size_t(pairs[size_t(i)][0])],
+                            &pieces_[size_t(pairs[size_t(i)][1])], &refusals[size_t(i)]);
+      });
+      for (const Refusal& refusal : refusals) this->Narrow(refusal);
+      return isJoined;
+    };
+    JoinAlongBorders(SmoothBorders(mesh_, neighbours_, chartOfFace), tryAll);
+  }
+
+  /// Both in `a`, if they can be laid flat together. Where they meet in several lines, as the
+  /// halves of a tube, all but the longest stay cut.
+  bool TryToJoin(Piece* a, Piece* b, Refusal* refusal) {
+    if (std::min(a->rectangle, b->rectangle) > kSmall * area_) return false;
+    if (a->faces.size() + b->faces.size() > kMostFaces) return false;
+    const CommonLines lines = LinesBetween(mesh_, neighbours_, a->faces, b->faces);
+    const double mostRectangle = kMostJoined * (a->rectangle + b->rectangle);
+    if (this->RectangleSideBySide(*a, *b, lines.longest) > kMostGuessed * mostRectangle) {
+      return false;
+    }
+    std::vector<int32_t> faces, beyond;
+    std::merge(a->faces.begin(), a->faces.end(), b->faces.begin(), b->faces.end(),
+               std::back_inserter(faces));
+    for (const int32_t corner : lines.others) beyond.push_back(neighbours_[size_t(corner)]);
+    for (const std::vector<int32_t>& side : {lines.others, beyond}) {
+      for (const int32_t corner : side) neighbours_[size_t(corner)] = -1;
+    }
+    Piece joined = this->TryToFlatten(std::move(faces), mostRectangle, refusal);
+    if (joined.faces.empty()) {
+      for (size_t i = 0; i < beyond.size(); ++i) {
+        neighbours_[size_t(lines.others[i])] = beyond[i];
+        neighbours_[size_t(beyond[i])] = lines.others[i];
+      }
+      return false;
+    }
+    *a = std::move(joined);
+    *b = {};
+    return true;
+  }
+
+  /// m2, of the smallest rectangle about both as they are, turned and moved so that they meet best
+  /// along a line of edges.
+  double RectangleSideBySide(const Piece& a, const Piece& b,
+                             const std::vector<int32_t>& line) const {
+    // The middles of the edges on both sides, as complex numbers.
+    using Complex = std::complex<double>;
+    const auto middle = [&](int32_t corner) {
+      const std::array<Vec2f, 3>& p = set_.places[size_t(corner / 3)];
+      const Vec2f sum = p[size_t(corner % 3)] + p[size_t((corner + 1) % 3)];
+      return Complex(double(sum.x) / 2, double(sum.y) / 2);
+    };
+    const auto along = [&](int32_t corner) {
+      const std::array<Vec2f, 3>& p = set_.places[size_t(corner / 3)];
+      const Vec2f edge = p[size_t((corner + 1) % 3)] - p[size_t(corner % 3)];
+      return Complex(double(edge.x), double(edge.y));
+    };
+    Complex here, there, turn;
+    for (const int32_t corner : line) {
+      const int32_t other = neighbours_[size_t(corner)];
+      here += middle(corner) / double(line.size());
+      there += middle(other) / double(line.size());
+      turn -= along(corner) * std::conj(along(other));
+    }
+    turn = std::abs(turn) > 0 ? turn / std::abs(turn) : 1;
+
+    std::vector<Vec2d> places;
+    for (const int32_t face : a.faces) {
+      for (const Vec2f& p : set_.places[size_t(face)]) places.emplace_back(p);
+    }
+    for (const int32_t face : b.faces) {
+      for (const Vec2f& p : set_.places[size_t(face)]) {
+        const Complex moved = (Complex(double(p.x), double(p.y)) - there) * turn + here;
+        places.push_back({moved.real(), moved.imag()});
+      }
+    }
+    return RectangleAbout(places);
+  }
+
   /// The charts are the same for any longest extent on this side of both ends of `refusal`.
   void Narrow(const Refusal& refusal) {
     for (const double end : {refusal.edge, refusal.extent}) {
@@ -115,44 +258,62 @@ class Segmentation {
     }
   }
 
-  /// The chart of a cluster; one without corners where it cannot be laid flat. What it may be
-  /// refused for, where its extent was looked at.
-  Chart TryToFlatten(int32_t index, Refusal* refusal) {
-    const ClusterNode& node = tree_.nodes[size_t(index)];
-    const ChartMesh mesh = MakeChartMesh(mesh_, neighbours_, node.firstFace, node.faceCount);
-    Chart chart{index, node.firstFace, node.faceCount, int32_t(mesh.positions.size()), true};
-    if (node.faceCount == 1) {
-      this->Keep(chart, mesh, MapOfFace(mesh));
-      return chart;
+  /// The chart of some faces, in a rectangle of `mostRectangle`, m2, at most; one without corners
+  /// where they cannot be laid flat. What it may be refused for, where its extent was looked at.
+  Piece TryToFlatten(std::vector<int32_t> faces, double mostRectangle, Refusal* refusal) {
+    const ChartMesh mesh = MakeChartMesh(mesh_, neighbours_, faces);
+    Piece piece;
+    if (faces.size() == 1) {
+      const std::vector<Vec2d> map = MapOfFace(mesh);
+      piece.rectangle = RectangleAbout(map);
+      piece.chart.cornerCount = 3;
+      piece.chart.isProjected = true;
+      piece.faces = std::move(faces);
+      this->Keep(piece, mesh, map);
+      return piece;
     }
     if (!mesh.IsFlat()) return {};
 
     // Seen along its normal, or else by a map that keeps angles.
-    const Vec3d axis = Normalize(Vec3d(node.vectorArea));
-    std::vector<Vec2d> map;
-    const double limit = std::min(options_.stretch, kMostForeshortened);
-    const bool isFacing = double(node.area) <= kMostForeshortened * double(Length(node.vectorArea));
-    if (isFacing && axis != Vec3d()) map = ProjectedMap(mesh, axis);
-    double stretch = map.empty() ? 0 : Stretch(mesh, map);
-    if (!(stretch > 0 && stretch <= limit)) {
-      chart.isProjected = false;
-      map = ConformalMap(mesh);
-      stretch = map.empty() ? 0 : Stretch(mesh, map);
-      if (!(stretch > 0 && stretch <= options_.stretch)) return {};
-    }
+    double stretch = 0;
+    const double area = AreaOf(mesh);
+    std::vector<Vec2d> map = this->Map(mesh, area, &piece.chart.isProjected, &stretch);
+    if (map.empty()) return {};
+    piece.rectangle = RectangleAbout(map);
+    if (piece.rectangle > mostRectangle) return {};
     *refusal = RefusalOf(mesh, map);
     if (refusal->IsFor(LongestOf(options_))) return {};
-    if (!IsFull(map, double(node.area), options_.mostEmpty)) return {};
-    chart.stretch = float(stretch);
-    this->Keep(chart, mesh, map);
-    return chart;
+    if (options_.mostEmpty > 0 && piece.rectangle - area > options_.mostEmpty) return {};
+    piece.chart.stretch = float(stretch);
+    piece.chart.cornerCount = int32_t(mesh.positions.size());
+    piece.faces = std::move(faces);
+    this->Keep(piece, mesh, map);
+    return piece;
   }
 
-  void Keep(const Chart& chart, const ChartMesh& mesh, const std::vector<Vec2d>& map) {
+  /// Empty where no map keeps within the stretch.
+  std::vector<Vec2d> Map(const ChartMesh& mesh, double area, bool* isProjected,
+                         double* stretch) const {
+    const Vec3d vectorArea = VectorAreaOf(mesh), axis = Normalize(vectorArea);
+    std::vector<Vec2d> map;
+    *isProjected = true;
+    const double limit = std::min(options_.stretch, kMostForeshortened);
+    const bool isFacing = area <= kMostForeshortened * Length(vectorArea);
+    if (isFacing && axis != Vec3d()) map = ProjectedMap(mesh, axis);
+    *stretch = map.empty() ? 0 : Stretch(mesh, map);
+    if (*stretch > 0 && *stretch <= limit) return map;
+    *isProjected = false;
+    map = ConformalMap(mesh);
+    *stretch = map.empty() ? 0 : Stretch(mesh, map);
+    if (!(*stretch > 0 && *stretch <= options_.stretch)) map.clear();
+    return map;
+  }
+
+  void Keep(const Piece& piece, const ChartMesh& mesh, const std::vector<Vec2d>& map) {
     Vec2d middle;
     for (const Vec2d& place : map) middle = middle + place * (1 / double(map.size()));
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const size_t face = size_t(chart.firstFace) + t;
+      const size_t face = size_t(piece.faces[t]);
       set_.corners[face] = mesh.triangles[t];
       for (size_t c = 0; c < 3; ++c) {
         set_.places[face][c] = Vec2f(map[size_t(mesh.triangles[t][c])] - middle);
@@ -163,7 +324,9 @@ class Segmentation {
   const TriangleMesh& mesh_;
   const ClusterTree& tree_;
   const ChartOptions options_;
-  const std::vector<int32_t> neighbours_;
+  std::vector<int32_t> neighbours_;
+  double area_ = 0;  ///< m2, of all
+  std::vector<Piece> pieces_;
   ChartSet set_;
 };
 
@@ -178,7 +341,7 @@ bool ChartSet::IsOf(const ChartOptions& other) const {
 std::vector<int32_t> ChartOfFace(const ChartSet& set) {
   std::vector<int32_t> chartOfFace(set.places.size());
   for (size_t i = 0; i < set.charts.size(); ++i) {
-    std::fill_n(chartOfFace.begin() + set.charts[i].firstFace, set.charts[i].faceCount, int32_t(i));
+    for (const int32_t face : set.FacesOf(set.charts[i])) chartOfFace[size_t(face)] = int32_t(i);
   }
   return chartOfFace;
 }

@@ -22,17 +22,17 @@ struct ChartOptions {
   double mostEmpty = 0;
 };
 
-/// A cluster laid flat.
+/// A cluster laid flat, or several that lie beside each other.
 struct Chart {
-  int32_t node = 0;  ///< of the cluster tree
-  int32_t firstFace = 0, faceCount = 0;
-  int32_t cornerCount = 0;   ///< different places in it
-  bool isProjected = false;  ///< seen along its normal, else a conformal map
-  float stretch = 1;         ///< by which lengths in it grow or shrink at most
+  int32_t first = 0, faceCount = 0;  ///< of ChartSet::faces
+  int32_t cornerCount = 0;           ///< different places in it
+  bool isProjected = false;          ///< seen along its normal, else a conformal map
+  float stretch = 1;                 ///< by which lengths in it grow or shrink at most
 };
 
 struct ChartSet {
-  std::vector<Chart> charts;  ///< by their first face; every face lies in one
+  std::vector<Chart> charts;   ///< by their first face; every face lies in one
+  std::vector<int32_t> faces;  ///< chart after chart, in each ascending
   /// By face: of its corners in the plane of their chart, m. Charts have the area of their cluster
   /// about, and lie each about its own origin.
   std::vector<std::array<Vec2f, 3>> places;
@@ -43,6 +43,15 @@ struct ChartSet {
   /// The extents from which and under which ChartOptions::longest leaves all charts as they are, m.
   double leastLongest = 0, mostLongest = std::numeric_limits<double>::infinity();
 
+  struct FaceRange {
+    const int32_t *first, *last;
+    const int32_t* begin() const { return first; }
+    const int32_t* end() const { return last; }
+  };
+  FaceRange FacesOf(const Chart& chart) const {
+    return {faces.data() + chart.first, faces.data() + chart.first + chart.faceCount};
+  }
+
   /// Whether `other` options cut the same mesh into the same charts, as far as is known.
   bool IsOf(const ChartOptions& other) const;
 };
@@ -52,10 +61,10 @@ std::vector<int32_t> ChartOfFace(const ChartSet& set);
 /// Of all its charts; 1 where there are none.
 float LargestStretch(const ChartSet& set);
 
-/// The largest clusters that a map lays flat without overlaps and within the stretch. `mesh` is in
-/// the order of `tree`. A face alone always is a chart. Does not depend on the number of threads.
-/// Throws Error for options out of range and where the tree is not that
-/// of the mesh, Cancelled.
+/// The largest clusters that a map lays flat without overlaps and within the stretch, and small
+/// neighbours of them joined. `mesh` is in the order of `tree`. A face alone always is a chart.
+/// Does not depend on the number of threads. Throws Error for options out of range and where the
+/// tree is not that of the mesh, Cancelled.
 ChartSet CutIntoCharts(const TriangleMesh& mesh, const ClusterTree& tree,
                        const ChartOptions& options = {}, const ProgressCallback& progress = {});
 

@@ -99,32 +99,79 @@ void Rasterize(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
   }
 }
 
-/// Texels around what is filled get the mean of their neighbours that are, `rings` times.
-void Extend(int size, int rings, Canvas* canvas) {
-  for (int ring = 0; ring < rings; ++ring) {
-    std::vector<std::pair<size_t, Spectrum>> found;
-    for (int y = 0; y < size; ++y) {
-      for (int x = 0; x < size; ++x) {
-        const size_t texel = size_t(y) * size_t(size) + size_t(x);
-        if (canvas->isFilled[texel]) continue;
-        Spectrum sum;
-        int count = 0;
-        for (int row = std::max(0, y - 1); row <= std::min(size - 1, y + 1); ++row) {
-          for (int column = std::max(0, x - 1); column <= std::min(size - 1, x + 1); ++column) {
-            const size_t other = size_t(row) * size_t(size) + size_t(column);
-            if (!canvas->isFilled[other]) continue;
-            sum += canvas->texels[other];
-            ++count;
-          }
-        }
-        if (count > 0) found.push_back({texel, sum * (1.f / float(count))});
-      }
-    }
-    for (const auto& [texel, light] : found) {
-      canvas->texels[texel] = light;
-      canvas->isFilled[texel] = 1;
+/// The mean of the neighbours of a texel that have light; false where none has.
+bool MeanAround(const Canvas& canvas, int size, size_t texel, Spectrum* mean) {
+  const int x = int(texel % size_t(size)), y = int(texel / size_t(size));
+  Spectrum sum;
+  int count = 0;
+  for (int row = std::max(0, y - 1); row <= std::min(size - 1, y + 1); ++row) {
+    for (int column = std::max(0, x - 1); column <= std::min(size - 1, x + 1); ++column) {
+      const size_t other = size_t(row) * size_t(size) + size_t(column);
+      if (!canvas.isFilled[other]) continue;
+      sum += canvas.texels[other];
+      ++count;
     }
   }
+  *mean = sum * (1.f / float(std::max(1, count)));
+  return count > 0;
+}
+
+/// Those of `open` that lie beside texels with light get their mean; the others are left in it.
+void ExtendInto(int size, std::vector<size_t>* open, Canvas* canvas) {
+  std::vector<std::pair<size_t, Spectrum>> found;
+  std::vector<size_t> left;
+  for (const size_t texel : *open) {
+    Spectrum mean;
+    if (canvas->isFilled[texel]) continue;
+    if (MeanAround(*canvas, size, texel, &mean)) {
+      found.emplace_back(texel, mean);
+    } else {
+      left.push_back(texel);
+    }
+  }
+  for (const auto& [texel, light] : found) {
+    canvas->texels[texel] = light;
+    canvas->isFilled[texel] = 1;
+  }
+  *open = std::move(left);
+}
+
+/// The texels that charts touch and that have no light, by page.
+std::vector<std::vector<size_t>> TouchedInTheDark(const RadiosityAtlas& atlas,
+                                                  const std::vector<int32_t>& chartOfFace,
+                                                  const std::vector<Canvas>& canvases) {
+  std::vector<std::vector<size_t>> texels(canvases.size());
+  const int size = atlas.pageSize;
+  for (size_t face = 0; face < atlas.textureCoords.size(); ++face) {
+    const size_t page = size_t(atlas.pageOfChart[size_t(chartOfFace[face])]);
+    std::array<Vec2d, 3> corners;
+    for (size_t c = 0; c < 3; ++c) corners[c] = Vec2d(atlas.textureCoords[face][c]) * double(size);
+    ForEachColumnNear(corners, 0, size, size, [&](int x, int low, int high) {
+      for (int y = low; y < high; ++y) {
+        const size_t texel = size_t(y) * size_t(size) + size_t(x);
+        if (!canvases[page].isFilled[texel]) texels[page].push_back(texel);
+      }
+    });
+  }
+  for (std::vector<size_t>& list : texels) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  return texels;
+}
+
+/// Light for all texels that charts touch, then for those around them, `rings` times: charts that
+/// lie beside each other meet in the middle.
+void Extend(int size, int rings, std::vector<size_t> touched, Canvas* canvas) {
+  for (size_t before = touched.size() + 1; touched.size() < before;) {
+    before = touched.size();
+    ExtendInto(size, &touched, canvas);
+  }
+  std::vector<size_t> dark;
+  for (size_t i = 0; i < canvas->texels.size(); ++i) {
+    if (!canvas->isFilled[i]) dark.push_back(i);
+  }
+  for (int ring = 0; ring < rings; ++ring) ExtendInto(size, &dark, canvas);
 }
 
 /// Empty texels get the mean of what is filled in the smallest square of a pyramid that has some
@@ -185,16 +232,18 @@ LightMap MakeLightMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
   std::vector<Canvas> canvases(size_t(atlas.pages),
                                {std::vector<Spectrum>(texels), std::vector<uint8_t>(texels, 0)});
   Rasterize(mesh, atlas, chartOfFace, solution, &canvases);
+  std::vector<std::vector<size_t>> touched = TouchedInTheDark(atlas, chartOfFace, canvases);
   LightMap map;
   map.pageSize = atlas.pageSize;
   double mean = 0;
-  for (Canvas& canvas : canvases) {
+  for (size_t page = 0; page < canvases.size(); ++page) {
+    Canvas& canvas = canvases[page];
     for (size_t i = 0; i < texels; ++i) {
       if (!canvas.isFilled[i]) continue;
       ++map.coveredTexels;
       mean += double(canvas.texels[i].Mean());
     }
-    Extend(atlas.pageSize, atlas.padding + 1, &canvas);
+    Extend(atlas.pageSize, atlas.padding, std::move(touched[page]), &canvas);
     map.pages.push_back(std::move(canvas.texels));
   }
   mean /= double(std::max<int64_t>(1, map.coveredTexels));

@@ -29,17 +29,19 @@ Spectrum LightAt(const SeamPoint& seam, size_t side, const LightMap& map) {
 std::vector<SeamPoint> FindSeams(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
                                  const std::vector<int32_t>& chartOfFace,
                                  const std::vector<BorderPoint>& borders) {
-  // Between charts.
+  // Along cuts.
   std::vector<SeamPoint> seams;
   ForEachSharedEdge(mesh, [&](const SharedEdge& edge) {
     const std::array<size_t, 2> charts = {size_t(chartOfFace[edge.faces[0]]),
                                           size_t(chartOfFace[edge.faces[1]])};
-    if (charts[0] == charts[1]) return;
     std::array<Vec2f, 2> from, to;
     float length = 0;
     for (size_t side = 0; side < 2; ++side) {
       from[side] = atlas.textureCoords[edge.faces[side]][edge.from[side]];
       to[side] = atlas.textureCoords[edge.faces[side]][edge.to[side]];
+    }
+    if (charts[0] == charts[1] && from[0] == from[1] && to[0] == to[1]) return;
+    for (size_t side = 0; side < 2; ++side) {
       length = std::max(length, std::hypot(to[side].x - from[side].x, to[side].y - from[side].y));
     }
     const int count = 1 + int(length * float(atlas.pageSize));

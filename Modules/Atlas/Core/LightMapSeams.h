@@ -43,7 +43,7 @@ struct SeamPoint {
   Spectrum fixed;  ///< of the second side of a border, W/m2
 };
 
-/// About a point a texel along every edge between two charts whose faces share its points: what
+/// About a point a texel along every cut edge whose faces share its points: what
 /// they do not share is creased, and light may differ. Then the borders.
 std::vector<SeamPoint> FindSeams(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
                                  const std::vector<int32_t>& chartOfFace,

@@ -17,22 +17,28 @@ namespace lambert {
 namespace {
 
 /// The part of the pages that charts are first thought to fill; what is left of them at the end.
-constexpr double kFirstFill = 0.7, kLeastFill = 0.97;
+constexpr double kFirstFill = 0.7, kLeastFill = 0.98;
 /// A chart may leave so much empty of its rectangle, of the area of all.
 constexpr double kMostEmpty = 0.01;
 /// Attempts at the size of the texels that fills the pages, the first of them to find any.
 constexpr int kAttempts = 10;
-/// What the next attempt shrinks by beyond what the last one tells.
+/// The part of the pages that the next attempt aims at.
 constexpr double kSafety = 0.99;
 /// Pages that an atlas may have where its texels' size is given.
 constexpr int kMostPages = 256;
-/// Lookups between texels take in what lies half a texel around a place.
-constexpr double kHalfTexel = 0.5;
+/// Texels around a chart that are its own, whatever the padding; and those by which it may be off,
+/// as texture coordinates are in single precision.
+constexpr double kLeastMargin = 0.5, kRounding = 1. / 256;
 /// Texels of a level that a lookup there takes in at most, to one side of its place.
 constexpr double kReach = 1.5;
 
 /// Texels that a chart may be long.
 double Room(const AtlasOptions& options) { return options.pageSize - 2 * PaddingOf(options) - 2; }
+
+/// Texels around a chart that it takes.
+double Margin(const AtlasOptions& options) {
+  return std::max(kLeastMargin, double(PaddingOf(options))) + kRounding;
+}
 
 /// Texels a metre: those asked for, or as many as charts of `area`, m2, may fill the pages with.
 double FirstDensity(const AtlasOptions& options, double area) {
@@ -54,7 +60,7 @@ struct Rectangle {
 
 Rectangle RectangleOf(const ChartSet& set, const Chart& chart) {
   std::vector<Vec2f> points;
-  for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+  for (const int32_t f : set.FacesOf(chart)) {
     for (const Vec2f& place : set.places[size_t(f)]) points.push_back(place);
   }
   Rectangle rectangle;
@@ -111,14 +117,25 @@ class Layout {
     return PackCharts(masks, options_.pageSize);
   }
 
-  /// Texels from the lower left corner of what the chart takes.
+  /// By how much `density` may grow so that charts take `factor` times as many texels as they do in
+  /// `packing`: those within them by its square, those around them in proportion.
+  double Growth(double density, const Packing& packing, double factor) const {
+    const double taken = double(packing.takenTexels), within = area_ * density * density;
+    const double around = std::max(0., taken - within);
+    if (!(within > 0)) return std::sqrt(factor);
+    return (std::sqrt(around * around + 4 * within * factor * taken) - around) / (2 * within);
+  }
+
+  /// Texels from the lower left corner of what the chart takes, amid which it lies.
   Vec2d TexelsOf(size_t chart, const Vec2f& place, double density) const {
-    const double margin = PaddingOf(options_) + kHalfTexel;
-    return rectangles_[chart].Inside(place) * density + Vec2d(margin, margin);
+    const Rectangle& r = rectangles_[chart];
+    const std::array<int, 2> size = this->Size(chart, density);
+    const Vec2d rest(size[0] - r.width * density, size[1] - r.height * density);
+    return r.Inside(place) * density + rest * 0.5;
   }
   /// The texels that it takes in all.
   std::array<int, 2> Size(size_t chart, double density) const {
-    const double margin = 2 * (PaddingOf(options_) + kHalfTexel);
+    const double margin = 2 * Margin(options_);
     return {int(std::ceil(rectangles_[chart].width * density + margin)),
             int(std::ceil(rectangles_[chart].height * density + margin))};
   }
@@ -129,38 +146,15 @@ class Layout {
     const Chart& chart = set_.charts[index];
     const auto [width, height] = this->Size(index, density);
     ChartMask mask(width, height);
-    const double margin = PaddingOf(options_) + kHalfTexel;
-    for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
-      Vec2d p[3];
+    for (const int32_t f : set_.FacesOf(chart)) {
+      std::array<Vec2d, 3> corners;
       for (size_t c = 0; c < 3; ++c) {
-        p[c] = this->TexelsOf(index, set_.places[size_t(f)][c], density);
+        corners[c] = this->TexelsOf(index, set_.places[size_t(f)][c], density);
       }
-      const double left = std::min({p[0].x, p[1].x, p[2].x}) - margin;
-      const double right = std::max({p[0].x, p[1].x, p[2].x}) + margin;
-      for (int x = std::max(0, int(left)); x <= std::min(width - 1, int(right)); ++x) {
-        double low = height, high = 0;
-        for (int c = 0; c < 3; ++c) {
-          IncludeEdge(p[c], p[(c + 1) % 3], x - margin, x + 1 + margin, &low, &high);
-        }
-        if (low > high) continue;
-        mask.Take(x, std::max(0, int(std::floor(low - margin))),
-                  std::min(height, int(std::ceil(high + margin))));
-      }
+      ForEachColumnNear(corners, Margin(options_), width, height,
+                        [&](int x, int low, int high) { mask.Take(x, low, high); });
     }
     return mask;
-  }
-
-  /// What an edge takes between two upright lines.
-  static void IncludeEdge(Vec2d a, Vec2d b, double left, double right, double* low, double* high) {
-    if (a.x > b.x) std::swap(a, b);
-    if (b.x < left || a.x > right) return;
-    const auto at = [&](double x) {
-      if (!(b.x > a.x)) return a.y;
-      return a.y + (b.y - a.y) * std::min(1., std::max(0., (x - a.x) / (b.x - a.x)));
-    };
-    const double y[2] = {at(left), b.x > a.x ? at(right) : b.y};
-    *low = std::min({*low, y[0], y[1]});
-    *high = std::max({*high, y[0], y[1]});
   }
 
   const ChartSet& set_;
@@ -205,7 +199,7 @@ double FillPages(const Layout& layout, const AtlasOptions& options, Packing* pac
     }
     if (best > kLeastFill * tooDense) break;
     // As this attempt was full, or else between what fitted and what did not.
-    const double next = kSafety * density * std::sqrt(options.pages / fill);
+    const double next = density * layout.Growth(density, packed, kSafety * options.pages / fill);
     const bool isBetween = next > best && next < tooDense;
     density = std::min(layout.MostDensity(), isBetween ? next : 0.5 * (best + tooDense));
   }
@@ -280,7 +274,7 @@ RadiosityAtlas PackAtlas(ChartSet set, const AtlasOptions& options,
     const Chart& chart = atlas.set.charts[size_t(i)];
     const ChartPlace& place = packing.places[size_t(i)];
     atlas.pageOfChart[size_t(i)] = place.page;
-    for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+    for (const int32_t f : atlas.set.FacesOf(chart)) {
       for (size_t c = 0; c < 3; ++c) {
         Vec2d p = layout.TexelsOf(size_t(i), atlas.set.places[size_t(f)][c], density);
         std::array<int, 2> size = layout.Size(size_t(i), density);
@@ -309,7 +303,8 @@ std::vector<Vec2f> SplitAtCharts(const RadiosityAtlas& atlas, TriangleMesh* mesh
   std::map<std::array<int32_t, 2>, int32_t> pointOfCorner;  // By place in the chart and old point.
   for (const Chart& chart : atlas.set.charts) {
     pointOfCorner.clear();
-    for (size_t f = size_t(chart.firstFace); f < size_t(chart.firstFace + chart.faceCount); ++f) {
+    for (const int32_t face : atlas.set.FacesOf(chart)) {
+      const size_t f = size_t(face);
       for (size_t c = 0; c < 3; ++c) {
         const int32_t old = mesh->triangles[f][c];
         const auto [place, isNew] = pointOfCorner.try_emplace({atlas.set.corners[f][c], old},
@@ -354,7 +349,7 @@ std::vector<int32_t> FacesOfTexels(const RadiosityAtlas& atlas, int page) {
   for (size_t i = 0; i < atlas.set.charts.size(); ++i) {
     if (atlas.pageOfChart[i] != page) continue;
     const Chart& chart = atlas.set.charts[i];
-    for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+    for (const int32_t f : atlas.set.FacesOf(chart)) {
       std::array<Vec2d, 3> corners;
       for (size_t c = 0; c < 3; ++c) {
         corners[c] = Vec2d(atlas.textureCoords[size_t(f)][c]) * double(size);

@@ -23,7 +23,7 @@ void AddSmallFaces(const RadiosityAtlas& atlas, int page, std::vector<int32_t>* 
   for (size_t i = 0; i < atlas.set.charts.size(); ++i) {
     if (atlas.pageOfChart[i] != page) continue;
     const Chart& chart = atlas.set.charts[i];
-    for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+    for (const int32_t f : atlas.set.FacesOf(chart)) {
       const std::array<Vec2f, 3>& corners = atlas.textureCoords[size_t(f)];
       const Vec2f middle = (corners[0] + corners[1] + corners[2]) * (1.f / 3);
       for (const Vec2f& place : {middle, corners[0], corners[1], corners[2]}) {
@@ -70,7 +70,7 @@ std::vector<bool> TexturedPages(const RadiosityAtlas& atlas, const BaseTextures*
   std::vector<bool> isTextured(size_t(atlas.pages), false);
   for (size_t i = 0; textures && i < atlas.set.charts.size(); ++i) {
     const Chart& chart = atlas.set.charts[i];
-    for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+    for (const int32_t f : atlas.set.FacesOf(chart)) {
       if (textures->IsTextured(f)) isTextured[size_t(atlas.pageOfChart[i])] = true;
     }
   }

@@ -34,8 +34,8 @@ T Blend(const std::vector<T>& values, const std::array<int32_t, 3>& corners,
 
 /// The longer side of the box about the places of a chart, m.
 double LengthOf(const ChartSet& set, const Chart& chart) {
-  Vec2f low = set.places[size_t(chart.firstFace)][0], high = low;
-  for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+  Vec2f low = set.places[size_t(*set.FacesOf(chart).begin())][0], high = low;
+  for (const int32_t f : set.FacesOf(chart)) {
     for (const Vec2f& p : set.places[size_t(f)]) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y)};
@@ -127,7 +127,7 @@ RadiosityAtlas WithTexelDensity(const TriangleMesh& mesh, RadiosityAtlas atlas,
     const Chart& chart = set.charts[i];
     const double room = std::max(1., longest / std::max(1e-30, LengthOf(set, chart)));
     const float scale = float(std::min(densities[i], room));
-    for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+    for (const int32_t f : set.FacesOf(chart)) {
       for (Vec2f& place : set.places[size_t(f)]) place = place * scale;
     }
   }

@@ -32,6 +32,37 @@ void ForEachTexelOf(const std::array<Vec2d, 3>& corners, int size, const Visit& 
   }
 }
 
+/// What an edge takes between two upright lines.
+inline void IncludeEdge(Vec2d a, Vec2d b, double left, double right, double* low, double* high) {
+  if (a.x > b.x) std::swap(a, b);
+  if (b.x < left || a.x > right) return;
+  const auto at = [&](double x) {
+    if (!(b.x > a.x)) return a.y;
+    return a.y + (b.y - a.y) * std::min(1., std::max(0., (x - a.x) / (b.x - a.x)));
+  };
+  const double y[2] = {at(left), b.x > a.x ? at(right) : b.y};
+  *low = std::min({*low, y[0], y[1]});
+  *high = std::max({*high, y[0], y[1]});
+}
+
+/// Calls visit(x, low, high) for every column of texels within `width` x `height` that come nearer
+/// to the triangle than `margin`, >= 0, along an axis: those of rows [low, high).
+template <class Visit>
+void ForEachColumnNear(const std::array<Vec2d, 3>& corners, double margin, int width, int height,
+                       const Visit& visit) {
+  const double left = std::min({corners[0].x, corners[1].x, corners[2].x}) - margin;
+  const double right = std::max({corners[0].x, corners[1].x, corners[2].x}) + margin;
+  for (int x = std::max(0, int(left)); x <= std::min(width - 1, int(right)); ++x) {
+    double low = height, high = 0;
+    for (size_t c = 0; c < 3; ++c) {
+      IncludeEdge(corners[c], corners[(c + 1) % 3], x - margin, x + 1 + margin, &low, &high);
+    }
+    if (low > high) continue;
+    visit(x, std::max(0, int(std::floor(low - margin))),
+          std::min(height, int(std::ceil(high + margin))));
+  }
+}
+
 /// Weights of the corners at a place in the plane; those of the nearest corner where the triangle
 /// has no area.
 inline std::array<double, 3> Barycentric(const std::array<Vec2d, 3>& corners, const Vec2d& place) {

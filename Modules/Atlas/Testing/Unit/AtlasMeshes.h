@@ -64,7 +64,7 @@ inline std::array<Vec3f, 3> CornersOf(const TriangleMesh& mesh, int64_t face) {
 /// All of a mesh as one chart.
 inline ChartMesh WholeChart(TriangleMesh mesh) {
   mesh.surfaceId.assign(mesh.triangles.size(), 0);
-  return MakeChartMesh(mesh, FindNeighbours(mesh), 0, int32_t(mesh.FaceCount()));
+  return MakeChartMesh(mesh, FindNeighbours(mesh), FacesFrom(0, int32_t(mesh.FaceCount())));
 }
 
 }  // namespace lambert

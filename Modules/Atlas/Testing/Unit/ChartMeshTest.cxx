@@ -71,7 +71,8 @@ TEST(ChartMesh, ARangeOfFacesHasABorderOfItsOwn) {
   TriangleMesh mesh = FlatGrid(4);
   mesh.surfaceId.assign(mesh.triangles.size(), 0);
   const std::vector<int32_t> neighbours = FindNeighbours(mesh);
-  const ChartMesh row = MakeChartMesh(mesh, neighbours, 8, 8);  // The second row of cells.
+  const ChartMesh row =
+      MakeChartMesh(mesh, neighbours, FacesFrom(8, 8));  // The second row of cells.
   EXPECT_TRUE(row.IsFlat());
   EXPECT_EQ(row.positions.size(), 10u);
   EXPECT_EQ(row.borders[0].size(), 10u);

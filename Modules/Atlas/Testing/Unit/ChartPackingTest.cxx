@@ -101,6 +101,15 @@ TEST(ChartPacking, SmallChartsLieWithinFrames) {
   EXPECT_EQ(Taken(charts, packing, 128), 128 * 128 - 120 * 120 + 9 * 36 * 36);
 }
 
+TEST(ChartPacking, HolesOfAFewTexelsAreFilled) {
+  std::vector<ChartMask> charts = {Filled(1024, 832)};
+  for (int i = 0; i < 42 * 8; ++i) charts.push_back(Frame(24, 24, 4));
+  for (int i = 0; i < 250; ++i) charts.push_back(Filled(14, 14));
+  const Packing packing = PackCharts(charts, 1024);
+  EXPECT_EQ(packing.pages, 1);
+  EXPECT_EQ(Taken(charts, packing, 1024), packing.takenTexels);
+}
+
 TEST(ChartPacking, WhatDoesNotFitGoesOnTheNextPage) {
   const std::vector<ChartMask> charts(5, Filled(32, 32));
   const Packing packing = PackCharts(charts, 64);

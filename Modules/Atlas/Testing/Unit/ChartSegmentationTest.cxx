@@ -23,19 +23,20 @@ void ExpectValid(const TriangleMesh& mesh, const ChartSet& set) {
   int32_t next = 0;
   Random random(3);
   for (const Chart& chart : set.charts) {
-    ASSERT_EQ(chart.firstFace, next);
+    ASSERT_EQ(chart.first, next);
     next += chart.faceCount;
     for (int sample = 0; sample < 20; ++sample) {
-      const int32_t face = chart.firstFace + int32_t(random.UniformDouble() * chart.faceCount);
+      const int32_t face =
+          set.faces[size_t(chart.first) + size_t(random.UniformDouble() * chart.faceCount)];
       const auto& t = set.places[size_t(face)];
       float u = random.Uniform(), v = random.Uniform();
       if (u + v > 1) u = 1 - u, v = 1 - v;
       const Vec2f p = t[0] + (t[1] - t[0]) * u + (t[2] - t[0]) * v;
       int taken = 0;
-      for (int32_t f = chart.firstFace; f < next; ++f) taken += Holds(set.places[size_t(f)], p);
+      for (const int32_t f : set.FacesOf(chart)) taken += Holds(set.places[size_t(f)], p);
       EXPECT_LE(taken, 1);
     }
-    for (int32_t f = chart.firstFace; f < next; ++f) {
+    for (const int32_t f : set.FacesOf(chart)) {
       for (size_t c = 0; c < 3; ++c) {
         EXPECT_GE(set.corners[size_t(f)][c], 0);
         EXPECT_LT(set.corners[size_t(f)][c], chart.cornerCount);
@@ -44,6 +45,9 @@ void ExpectValid(const TriangleMesh& mesh, const ChartSet& set) {
     }
   }
   EXPECT_EQ(next, mesh.FaceCount());
+  std::vector<int32_t> faces = set.faces;
+  std::sort(faces.begin(), faces.end());
+  EXPECT_EQ(faces, FacesFrom(0, int32_t(mesh.FaceCount())));
 }
 
 TEST(ChartSegmentation, WhatIsFlatIsOneChart) {

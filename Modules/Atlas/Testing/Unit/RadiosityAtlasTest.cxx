@@ -33,7 +33,7 @@ void ForEachTexel(const RadiosityAtlas& atlas,
                   const std::function<void(std::array<int, 3>, int32_t)>& visit) {
   for (size_t i = 0; i < atlas.set.charts.size(); ++i) {
     const Chart& chart = atlas.set.charts[i];
-    for (int32_t f = chart.firstFace; f < chart.firstFace + chart.faceCount; ++f) {
+    for (const int32_t f : atlas.set.FacesOf(chart)) {
       Vec2d p[3];
       for (size_t c = 0; c < 3; ++c) {
         p[c] = Vec2d(atlas.textureCoords[size_t(f)][c]) * double(atlas.pageSize);
@@ -60,7 +60,7 @@ TEST(RadiosityAtlas, ChartsKeepTheirDistance) {
   options.padding = 2;
   const RadiosityAtlas atlas = MakeRadiosityAtlas(mixed.mesh, mixed.tree, options);
   EXPECT_EQ(atlas.pages, 1);
-  EXPECT_GT(atlas.utilisation, 0.3);  // Half of so small a page is padding.
+  EXPECT_GT(atlas.utilisation, 0.38);  // Half of so small a page is padding.
   std::map<std::array<int, 3>, int32_t> chartOfTexel;
   ForEachTexel(atlas, [&](std::array<int, 3> texel, int32_t chart) {
     ASSERT_TRUE(texel[1] >= 0 && texel[1] < 256 && texel[2] >= 0 && texel[2] < 256);
