@@ -9,6 +9,7 @@
 
 #include <filesystem>
 
+#include "Common/Core/Error.h"
 #include "Common/Core/OutputFile.h"
 
 namespace lambert {
@@ -39,13 +40,20 @@ void WriteExr(const std::string& name, int size, std::vector<Spectrum> rows) {
     bands.insert(names[band], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(&rows[0][band]),
                                          sizeof(Spectrum), sizeof(Spectrum) * size_t(size)));
   }
-  try {
-    Imf::OutputFile file(name.c_str(), header);
-    file.setFrameBuffer(bands);
-    file.writePixels(size);
-  } catch (const std::exception&) {
-    FailToWrite(name);  // The library's sentence names its own insides.
-  }
+  WriteOutput(name, [&](const std::string& place) {
+    try {
+      Imf::OutputFile file(place.c_str(), header);
+      file.setFrameBuffer(bands);
+      file.writePixels(size);
+      return true;
+    } catch (const std::exception&) {
+      return false;  // The library's sentence names its own insides.
+    }
+  });
+}
+
+[[noreturn]] void FailToPack(const std::string& name) {
+  throw Error("The page " + name + " could not be packed: there is no memory for it.");
 }
 
 /// Takes what stb makes.
@@ -62,14 +70,14 @@ void WritePng(const std::string& name, int size, const std::vector<Spectrum>& ro
   }
   std::string png;
   if (!stbi_write_png_to_func(Append, &png, size, size, 3, texels.data(), 3 * size)) {
-    FailToWrite(name);
+    FailToPack(name);
   }
   WriteOutput(name, png);
 }
 
 void WriteHdr(const std::string& name, int size, const std::vector<Spectrum>& rows) {
   std::string hdr;
-  if (!stbi_write_hdr_to_func(Append, &hdr, size, size, 3, &rows[0].r)) FailToWrite(name);
+  if (!stbi_write_hdr_to_func(Append, &hdr, size, size, 3, &rows[0].r)) FailToPack(name);
   WriteOutput(name, hdr);
 }
 

@@ -1,18 +1,22 @@
 // Files that are written whole or not at all: what a full disk cut off would be taken for a result.
 #pragma once
 
+#include <functional>
 #include <string>
 
 namespace lambert {
 
 /// Throws Error, one sentence, where `fileName` cannot be written: no such folder, no right, a
-/// folder itself.
+/// folder itself. Leaves what stands there as it is.
 void RequireWritable(const std::string& fileName);
 
-/// Writes `bytes`. Throws Error where not all of them arrive; nothing of the file is left then.
-void WriteOutput(const std::string& fileName, const std::string& bytes);
+/// Writes a file by `write`, which gets the name to write to and returns whether all arrived. That
+/// is NAME.part, which becomes NAME once it is whole; a device or a pipe is written as it stands.
+/// Throws Error where not all arrives; what stood there before is left then.
+void WriteOutput(const std::string& fileName,
+                 const std::function<bool(const std::string& name)>& write);
 
-/// Removes what arrived of an output, devices apart, and throws Error.
-[[noreturn]] void FailToWrite(const std::string& fileName);
+/// The same of `bytes`.
+void WriteOutput(const std::string& fileName, const std::string& bytes);
 
 }  // namespace lambert
