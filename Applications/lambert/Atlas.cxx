@@ -14,6 +14,7 @@
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
 #include "Engine/PolyDataFile.h"
+#include "FilesOfRun.h"
 #include "Interrupt.h"
 #include "ProgressDisplay.h"
 
@@ -72,9 +73,7 @@ void WriteReport(const RadiosityAtlas& atlas, const std::string& fileName) {
 
 int Atlas(const AtlasArguments& arguments) {
   // Everything that can be refused is refused first.
-  for (const std::string& name : {arguments.output, arguments.image, arguments.report}) {
-    if (!name.empty()) RequireWritable(name);
-  }
+  RequireWritable(arguments.Outputs());
   SetThreadCount(arguments.threads);
   CatchInterrupt();
   ProgressDisplay display(arguments.progress);
@@ -90,6 +89,7 @@ int Atlas(const AtlasArguments& arguments) {
   RadiosityRun run(options);
   display.Begin("reading");
   run.Load(progress);
+  RequireUnread(arguments.Outputs(), run.Reading().companions);
   display.Begin("clustering");
   run.Cluster(progress);
   display.Begin("atlas");
