@@ -1,6 +1,5 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkPolyData.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "Common/Core/OutputFile.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
+#include "Display/PictureFile.h"
 #include "Engine/PolyDataFile.h"
 #include "FilesOfRun.h"
 #include "Interrupt.h"
@@ -49,11 +49,7 @@ void WriteCharts(const RadiosityAtlas& atlas, const std::string& fileName) {
       }
     }
   }
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(image);
-  writer->SetFileName(fileName.c_str());
-  writer->Write();
-  if (writer->GetErrorCode() != 0) throw Error("The picture " + fileName + " was not written.");
+  WritePicture(image, fileName);
 }
 
 void WriteReport(const RadiosityAtlas& atlas, const std::string& fileName) {
