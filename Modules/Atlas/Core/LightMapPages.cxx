@@ -9,6 +9,7 @@
 
 #include <filesystem>
 
+#include "Atlas/Core/PngBytes.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/OutputFile.h"
 
@@ -52,15 +53,6 @@ void WriteExr(const std::string& name, int size, std::vector<Spectrum> rows) {
   });
 }
 
-[[noreturn]] void FailToPack(const std::string& name) {
-  throw Error("The page " + name + " could not be packed: there is no memory for it.");
-}
-
-/// Takes what stb makes.
-void Append(void* bytes, void* more, int size) {
-  static_cast<std::string*>(bytes)->append(static_cast<const char*>(more), size_t(size));
-}
-
 void WritePng(const std::string& name, int size, const std::vector<Spectrum>& rows,
               const TexelCodes& codes) {
   std::vector<uint8_t> texels;
@@ -68,16 +60,17 @@ void WritePng(const std::string& name, int size, const std::vector<Spectrum>& ro
   for (const Spectrum& texel : rows) {
     for (const uint8_t code : codes(texel)) texels.push_back(code);
   }
-  std::string png;
-  if (!stbi_write_png_to_func(Append, &png, size, size, 3, texels.data(), 3 * size)) {
-    FailToPack(name);
-  }
-  WriteOutput(name, png);
+  WriteOutput(name, PngBytes(size, size, 3, texels.data()));
 }
 
 void WriteHdr(const std::string& name, int size, const std::vector<Spectrum>& rows) {
   std::string hdr;
-  if (!stbi_write_hdr_to_func(Append, &hdr, size, size, 3, &rows[0].r)) FailToPack(name);
+  const auto append = [](void* to, void* more, int count) {
+    static_cast<std::string*>(to)->append(static_cast<const char*>(more), size_t(count));
+  };
+  if (!stbi_write_hdr_to_func(append, &hdr, size, size, 3, &rows[0].r)) {
+    throw Error("The page " + name + " could not be packed: there is no memory for it.");
+  }
   WriteOutput(name, hdr);
 }
 
