@@ -1,5 +1,5 @@
 // Lights without geometry, as methods see them. A new kind is one class, and its maker in the table
-// of LightSource.cxx.
+// of LightSource.cxx; Light::IsPlaced says whether it stands at a place.
 #pragma once
 
 #include <algorithm>
