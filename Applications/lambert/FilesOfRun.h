@@ -27,9 +27,14 @@ class FilesOfRun {
     this->Add(option, name, false);
   }
 
-  /// Throws CLI::ValidationError where one would write over another file of the run.
+  /// Throws CLI::ValidationError where one would write over another file of the run, finished or
+  /// not.
   void AddOutputs(const std::vector<OutputOfRun>& outputs) {
-    for (const auto& [option, name] : outputs) this->Add(option, name, true);
+    for (const auto& [option, name] : outputs) {
+      this->Add(option, name, true);
+      const std::string unfinished = name.empty() ? "" : UnfinishedOutput(name);
+      if (unfinished != name) this->Add(option, unfinished, true);
+    }
   }
 
  private:

@@ -11,7 +11,6 @@
 #include "Engine/ObjFile.h"
 #include "Engine/SolutionFile.h"
 #include "FilesOfRun.h"
-#include "Radiosity/Core/SolverState.h"
 
 namespace lambert {
 namespace {
@@ -176,7 +175,6 @@ std::vector<OutputOfRun> SolveArguments::Outputs() const {
   const auto add = [&](const char* option, const std::vector<std::string>& names) {
     for (const std::string& name : names) outputs.push_back({option, name});
   };
-  if (!solver.saveState.empty()) add("--save-state", {UnfinishedState(solver.saveState)});
   if (FileEnding(output) == ".obj") {
     add("--output", FilesBesideObj(output, this->MostPages()));
   }

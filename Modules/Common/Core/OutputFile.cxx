@@ -44,11 +44,11 @@ void RequireToOpen(const std::string& fileName) {
   if (isNew) fs::remove(EndOfLinks(fileName), ignored);
 }
 
-std::string Unfinished(const std::string& fileName) {
-  return EndOfLinks(fileName).string() + ".part";
-}
-
 }  // namespace
+
+std::string UnfinishedOutput(const std::string& fileName) {
+  return IsNoFile(fileName) ? fileName : EndOfLinks(fileName).string() + ".part";
+}
 
 void RequireWritable(const std::string& fileName) {
   const fs::path path(fileName);
@@ -63,23 +63,19 @@ void RequireWritable(const std::string& fileName) {
   }
   if (fs::is_fifo(path, ignored)) return;  // Its reader would take a try for the end.
   RequireToOpen(fileName);
-  if (!IsNoFile(fileName)) RequireToOpen(Unfinished(fileName));
+  RequireToOpen(UnfinishedOutput(fileName));
 }
 
 void WriteOutput(const std::string& fileName,
                  const std::function<bool(const std::string& name)>& write) {
   RequireWritable(fileName);
+  const std::string unfinished = UnfinishedOutput(fileName);
+  const bool isFile = unfinished != fileName;
+  const bool isWhole = write(unfinished);
   std::error_code failed, ignored;
-  bool isWhole = false;
-  if (IsNoFile(fileName)) {
-    isWhole = write(fileName);
-  } else {
-    const std::string unfinished = Unfinished(fileName);
-    isWhole = write(unfinished);
-    if (isWhole) fs::rename(unfinished, EndOfLinks(fileName), failed);
-    if (!isWhole || failed) fs::remove(unfinished, ignored);
-  }
+  if (isWhole && isFile) fs::rename(unfinished, EndOfLinks(fileName), failed);
   if (!isWhole || failed) {
+    if (isFile) fs::remove(unfinished, ignored);
     throw Error("The file " + fileName + " could not be written; give a place with room for it.");
   }
 }

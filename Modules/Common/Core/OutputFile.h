@@ -10,9 +10,13 @@ namespace lambert {
 /// folder itself. Leaves what stands there as it is.
 void RequireWritable(const std::string& fileName);
 
+/// The name of an output until it is whole: NAME.part, beside what a link leads to; NAME itself of
+/// a device or a pipe, which is written as it stands.
+std::string UnfinishedOutput(const std::string& fileName);
+
 /// Writes a file by `write`, which gets the name to write to and returns whether all arrived. That
-/// is NAME.part, which becomes NAME once it is whole; a device or a pipe is written as it stands.
-/// Throws Error where not all arrives; what stood there before is left then.
+/// is the unfinished one, which becomes NAME then. Throws Error where not all arrives; what stood
+/// there before is left then.
 void WriteOutput(const std::string& fileName,
                  const std::function<bool(const std::string& name)>& write);
 
