@@ -50,15 +50,21 @@ class Places {
 };
 
 std::vector<Ray> MakeRays(const TriangleMesh& mesh, int count, bool areSegments) {
+  constexpr int kMostMisses = 1000;
   const Places places(mesh);
   Random random(1);
+  int misses = 0;
   std::vector<Ray> rays;
   while (int(rays.size()) < count) {
     Vec3f normal, other;
     const Vec3f from = places.Pick(&random, &normal);
     if (areSegments) {
       const Vec3f offset = places.Pick(&random, &other) - from;
-      if (!(Length(offset) > 0)) continue;
+      if (!(Length(offset) > 0)) {
+        if (++misses > kMostMisses) throw Error("All faces of the scene lie in one point.");
+        continue;
+      }
+      misses = 0;
       rays.push_back({from, Normalize(offset), Length(offset)});
       continue;
     }

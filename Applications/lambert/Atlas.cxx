@@ -1,6 +1,5 @@
 #include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkPolyData.h>
 
 #include <algorithm>
@@ -13,7 +12,9 @@
 #include "Common/Core/OutputFile.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
+#include "Display/PictureFile.h"
 #include "Engine/PolyDataFile.h"
+#include "FilesOfRun.h"
 #include "Interrupt.h"
 #include "ProgressDisplay.h"
 
@@ -48,11 +49,7 @@ void WriteCharts(const RadiosityAtlas& atlas, const std::string& fileName) {
       }
     }
   }
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(image);
-  writer->SetFileName(fileName.c_str());
-  writer->Write();
-  if (writer->GetErrorCode() != 0) throw Error("The picture " + fileName + " was not written.");
+  WritePicture(image, fileName);
 }
 
 void WriteReport(const RadiosityAtlas& atlas, const std::string& fileName) {
@@ -72,9 +69,7 @@ void WriteReport(const RadiosityAtlas& atlas, const std::string& fileName) {
 
 int Atlas(const AtlasArguments& arguments) {
   // Everything that can be refused is refused first.
-  for (const std::string& name : {arguments.output, arguments.image, arguments.report}) {
-    if (!name.empty()) RequireWritable(name);
-  }
+  RequireWritable(arguments.Outputs());
   SetThreadCount(arguments.threads);
   CatchInterrupt();
   ProgressDisplay display(arguments.progress);
@@ -90,6 +85,7 @@ int Atlas(const AtlasArguments& arguments) {
   RadiosityRun run(options);
   display.Begin("reading");
   run.Load(progress);
+  RequireUnread(arguments.Outputs(), run.Reading().companions);
   display.Begin("clustering");
   run.Cluster(progress);
   display.Begin("atlas");

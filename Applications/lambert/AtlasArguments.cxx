@@ -54,10 +54,11 @@ void AtlasArguments::Check() const {
     throw CLI::ValidationError("--output", "the name has to end in .vtp");
   }
   RequirePngName(image);
-  FilesOfRun files(scene.files);
-  files.Add("--output", output, true);
-  files.Add("--image", image, true);
-  files.Add("--report", report, true);
+  FilesOfRun(scene.files).AddOutputs(this->Outputs());
+}
+
+std::vector<OutputOfRun> AtlasArguments::Outputs() const {
+  return {{"--output", output}, {"--image", image}, {"--report", report}};
 }
 
 }  // namespace lambert

@@ -14,6 +14,8 @@ class Option;
 
 namespace lambert {
 
+struct OutputOfRun;
+
 /// How charts are cut and packed.
 std::vector<CLI::Option*> AddAtlasOptions(CLI::App* command, AtlasOptions* atlas);
 
@@ -27,6 +29,8 @@ struct AtlasArguments {
   void AddTo(CLI::App* command);
   /// Throws CLI::ValidationError where names have the wrong ending or name one file twice.
   void Check() const;
+  /// All files that may come out.
+  std::vector<OutputOfRun> Outputs() const;
 };
 
 }  // namespace lambert

@@ -10,7 +10,6 @@
 #include <vtkImageShrink3D.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
-#include <vtkPNGWriter.h>
 #include <vtkPen.h>
 #include <vtkPlotLine.h>
 #include <vtkRenderWindow.h>
@@ -24,11 +23,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 
-#include "Common/Core/Error.h"
+#include "Common/Core/OutputFile.h"
+#include "Display/PictureFile.h"
 
 namespace lambert {
 namespace {
@@ -261,8 +260,8 @@ vtkStandardNewMacro(ChartWords);
 namespace {
 
 /// Takes the clipping out of an SVG: the exporter mirrors the rectangles, and no curve leaves its
-/// axes.
-void RemoveClipping(const std::string& name) {
+/// axes. False where not all of it could be written.
+bool RemoveClipping(const std::string& name) {
   std::ifstream in(name);
   std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   const std::string begin = " clip-path=\"";
@@ -271,7 +270,7 @@ void RemoveClipping(const std::string& name) {
   }
   std::ofstream out(name);
   out << text;
-  if (text.empty() || !out.flush()) throw Error("The chart " + name + " could not be written.");
+  return out.flush() && !text.empty();
 }
 
 /// A chart in a window of its own, `scale` times as large as the picture.
@@ -303,22 +302,19 @@ class ChartWindow {
     average->SetInputConnection(grab->GetOutputPort());
     average->SetShrinkFactors(scale_, scale_, 1);
     average->AveragingOn();
-    vtkNew<vtkPNGWriter> writer;
-    writer->SetInputConnection(average->GetOutputPort());
-    writer->SetFileName(name.c_str());
-    writer->Write();
-    if (writer->GetErrorCode() != 0) throw Error("The chart " + name + " could not be written.");
+    average->Update();
+    WritePicture(average->GetOutput(), name);
   }
 
   void WriteSvg(const std::string& name, const std::string& title) {
-    std::error_code ignored;
-    std::filesystem::remove(name, ignored);
-    vtkNew<vtkSVGExporter> exporter;
-    exporter->SetRenderWindow(view_->GetRenderWindow());
-    exporter->SetTitle(title.c_str());
-    exporter->SetFileName(name.c_str());
-    exporter->Write();
-    RemoveClipping(name);
+    WriteOutput(name, [&](const std::string& place) {
+      vtkNew<vtkSVGExporter> exporter;
+      exporter->SetRenderWindow(view_->GetRenderWindow());
+      exporter->SetTitle(title.c_str());
+      exporter->SetFileName(place.c_str());
+      exporter->Write();
+      return RemoveClipping(place);
+    });
   }
 
  private:

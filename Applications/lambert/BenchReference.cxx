@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/OutputFile.h"
 #include "Common/Core/Random.h"
 #include "Scene/Core/SceneKey.h"
 #include "Visibility/Core/SolutionLookup.h"
@@ -60,14 +61,12 @@ bool ReadReference(const std::string& name, int receivers, BenchReference* refer
 }
 
 void WriteReference(const std::string& name, const BenchReference& reference) {
-  // Under another name first: a bench that is cut short leaves no half reference.
-  const std::string unfinished = name + ".part";
-  std::ofstream file(unfinished, std::ios::binary);
-  WriteVector(reference.receivers, &file);
-  WriteVector(reference.light, &file);
-  std::error_code failed;
-  if (file.flush()) std::filesystem::rename(unfinished, name, failed);
-  if (!file || failed) throw Error("The reference " + name + " could not be written.");
+  WriteOutput(name, [&](const std::string& place) {
+    std::ofstream file(place, std::ios::binary);
+    WriteVector(reference.receivers, &file);
+    WriteVector(reference.light, &file);
+    return bool(file.flush());
+  });
 }
 
 std::vector<ReceiverPoint> Points(const std::vector<VertexReceiver>& receivers) {

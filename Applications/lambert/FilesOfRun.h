@@ -7,7 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "Common/Core/Error.h"
+#include "Common/Core/OutputFile.h"
+
 namespace lambert {
+
+/// A file that a run writes, and the option that asks for it; without a name it is not asked for.
+struct OutputOfRun {
+  std::string option, name;
+};
 
 class FilesOfRun {
  public:
@@ -15,7 +23,21 @@ class FilesOfRun {
     for (const std::string& name : scene) this->Add("SCENE", name, false);
   }
 
-  /// Throws CLI::ValidationError where an output would write over another file of the run.
+  void AddInput(const std::string& option, const std::string& name) {
+    this->Add(option, name, false);
+  }
+
+  /// Throws CLI::ValidationError where one would write over another file of the run, finished or
+  /// not.
+  void AddOutputs(const std::vector<OutputOfRun>& outputs) {
+    for (const auto& [option, name] : outputs) {
+      this->Add(option, name, true);
+      const std::string unfinished = name.empty() ? "" : UnfinishedOutput(name);
+      if (unfinished != name) this->Add(option, unfinished, true);
+    }
+  }
+
+ private:
   void Add(const std::string& option, const std::string& name, bool isOutput) {
     namespace fs = std::filesystem;
     if (name.empty()) return;
@@ -28,8 +50,25 @@ class FilesOfRun {
     }
   }
 
- private:
   std::map<std::string, std::string> uses_;  ///< a file, and the option that names it
 };
+
+/// Throws Error where one of the outputs cannot be written.
+inline void RequireWritable(const std::vector<OutputOfRun>& outputs) {
+  for (const OutputOfRun& output : outputs) {
+    if (!output.name.empty()) RequireWritable(output.name);
+  }
+}
+
+/// Throws Error where one of the outputs would write over one of the files that the scene's files
+/// named and that were read with them.
+inline void RequireUnread(const std::vector<OutputOfRun>& outputs,
+                          const std::vector<std::string>& companions) {
+  try {
+    FilesOfRun(companions).AddOutputs(outputs);
+  } catch (const CLI::ValidationError& error) {
+    throw Error(std::string(error.what()) + ", which needs it; name another file.");
+  }
+}
 
 }  // namespace lambert

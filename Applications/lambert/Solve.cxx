@@ -13,10 +13,10 @@
 #include "Engine/HtmlFile.h"
 #include "Engine/LightMapFile.h"
 #include "Engine/LitModelFile.h"
-#include "Engine/ObjFile.h"
 #include "Engine/ProbeFile.h"
 #include "Engine/RunReport.h"
 #include "Engine/SolutionFile.h"
+#include "FilesOfRun.h"
 #include "Interrupt.h"
 #include "ProgressDisplay.h"
 #include "Radiosity/Core/SolverState.h"
@@ -27,15 +27,8 @@ namespace {
 
 /// Everything that can be refused is refused before the solver's first second.
 void CheckOutputs(const SolveArguments& arguments) {
-  for (const std::string& name :
-       {arguments.output, arguments.image, arguments.report, arguments.probeOutput,
-        arguments.lightMap, arguments.solver.saveState}) {
-    if (!name.empty()) RequireWritable(name);
-  }
+  RequireWritable(arguments.Outputs());
   if (FileEnding(arguments.output) == ".html") RequireHtmlPage();
-  if (FileEnding(arguments.output) == ".obj") {
-    RequireWritable(FilesBesideObj(arguments.output, 0).front());
-  }
   if (!arguments.image.empty() && !vtkRadiosityImageWriter::IsDisplayAvailable()) {
     throw Error("Drawing a picture needs an X display and none answers: run under xvfb-run.");
   }
@@ -214,7 +207,7 @@ int Solve(const SolveArguments& arguments) {
   RadiosityRun run(arguments.RunOptions());
   display.Begin("reading");
   run.Load(progress);
-  arguments.RequireUnread(run.Reading().companions);
+  RequireUnread(arguments.Outputs(), run.Reading().companions);
   const UpAxis up = arguments.UpOf(run.GetScene().mesh);
   run.AddLights(arguments.lights.Lights(Vec3f(FromYUp({0, 1, 0}, up))));
   for (const std::string& warning : run.Warnings()) display.Say("warning: " + warning);

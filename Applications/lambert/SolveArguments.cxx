@@ -7,12 +7,10 @@
 #include <set>
 
 #include "ArgumentChecks.h"
-#include "Common/Core/Error.h"
 #include "Engine/LitModelFile.h"
 #include "Engine/ObjFile.h"
 #include "Engine/SolutionFile.h"
 #include "FilesOfRun.h"
-#include "Radiosity/Core/SolverState.h"
 
 namespace lambert {
 namespace {
@@ -159,39 +157,33 @@ void SolveArguments::Check() const {
     throw CLI::ValidationError("--range", "goes from a number up to a larger one");
   }
   FilesOfRun files(scene.files);
-  files.Add("--probe", probe, false);
-  files.Add("--resume", solver.resume, false);
-  files.Add("--environment", lights.environment, false);
+  files.AddInput("--probe", probe);
+  if (solver.resume != solver.saveState) files.AddInput("--resume", solver.resume);
+  files.AddInput("--environment", lights.environment);
   if (!lightMap.empty() && std::filesystem::path(lightMap).extension() != ".vtp") {
     throw CLI::ValidationError("--lightmap", "the name has to end in .vtp");
   }
-  this->AddOutputs(&files);
+  files.AddOutputs(this->Outputs());
   ImageSize();
   ImageCamera(UpAxis::Y);
 }
 
-void SolveArguments::AddOutputs(FilesOfRun* files) const {
-  if (solver.saveState != solver.resume) files->Add("--save-state", solver.saveState, true);
-  if (!solver.saveState.empty()) {
-    files->Add("--save-state", UnfinishedState(solver.saveState), true);
-  }
-  files->Add("--output", output, true);
+std::vector<OutputOfRun> SolveArguments::Outputs() const {
+  std::vector<OutputOfRun> outputs = {{"--output", output},     {"--probe-output", probeOutput},
+                                      {"--image", image},       {"--report", report},
+                                      {"--lightmap", lightMap}, {"--save-state", solver.saveState}};
+  const auto add = [&](const char* option, const std::vector<std::string>& names) {
+    for (const std::string& name : names) outputs.push_back({option, name});
+  };
   if (FileEnding(output) == ".obj") {
-    for (const std::string& name : FilesBesideObj(output, this->MostPages())) {
-      files->Add("--output", name, true);
-    }
+    add("--output", FilesBesideObj(output, this->MostPages()));
   }
-  files->Add("--probe-output", probeOutput, true);
-  files->Add("--image", image, true);
-  files->Add("--report", report, true);
   if (!lightMap.empty()) {
-    files->Add("--lightmap", lightMap, true);
     for (const PageFormat format : std::set<PageFormat>(pageFormats.begin(), pageFormats.end())) {
-      for (const std::string& name : LightMapPageNames(lightMap, this->MostPages(), format)) {
-        files->Add("--lightmap", name, true);
-      }
+      add("--lightmap", LightMapPageNames(lightMap, this->MostPages(), format));
     }
   }
+  return outputs;
 }
 
 void SolveArguments::RequireOptionsOfMethod() const {
@@ -210,15 +202,6 @@ int SolveArguments::MostPages() const {
   constexpr int kMostOfTexelSize = 256, kMostChecked = 4096;
   if (lightMap.empty()) return 1;
   return std::min(kMostChecked, atlas.texelSize > 0 ? kMostOfTexelSize : atlas.pages);
-}
-
-void SolveArguments::RequireUnread(const std::vector<std::string>& companions) const {
-  FilesOfRun files(companions);
-  try {
-    this->AddOutputs(&files);
-  } catch (const CLI::ValidationError& error) {
-    throw Error(std::string(error.what()) + ", which needs it; name another file.");
-  }
 }
 
 RadiosityRunOptions SolveArguments::RunOptions() const {

@@ -22,7 +22,7 @@ class App;
 
 namespace lambert {
 
-class FilesOfRun;
+struct OutputOfRun;
 
 struct SolveArguments {
   SceneArguments scene;
@@ -63,14 +63,12 @@ struct SolveArguments {
   /// The camera that was asked for, if any.
   std::optional<Camera> ImageCamera(UpAxis imageUp) const;
   RadiosityRunOptions RunOptions() const;
-  /// Throws Error where an output would write over one of the files that the scene's
-  /// files named and that were read with them.
-  void RequireUnread(const std::vector<std::string>& companions) const;
+  /// All files that may come out, those of as many pages as there can be.
+  std::vector<OutputOfRun> Outputs() const;
 
  private:
   void AddMethodsTo(CLI::App* command);
   void AddOutputsTo(CLI::App* command);
-  void AddOutputs(FilesOfRun* files) const;
   /// Pages that a light map may have.
   int MostPages() const;
   /// Throws CLI::ValidationError where an option was given that is another method's.

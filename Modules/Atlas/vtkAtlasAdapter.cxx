@@ -116,7 +116,7 @@ RadiosityAtlas AtlasFromPolyData(vtkPolyData* input, TriangleMesh* mesh,
     *solution = OntoShownSides(
         std::move(*solution),
         NumbersFromArray<int64_t>(RequireArray(cells, Names::InputFaceId(), 1, faces)),
-        NumbersFromArray<uint8_t>(RequireArray(cells, Names::Side(), 1, faces)));
+        SidesFromArray(RequireArray(cells, Names::Side(), 1, faces)));
   }
   return atlas;
 }

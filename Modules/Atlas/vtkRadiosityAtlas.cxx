@@ -72,7 +72,6 @@ void vtkRadiosityAtlas::FindSides(const lambert::RadiositySolution* solution, vt
   if (last.SolutionTime == time) {
     return;
   }
-  last.SolutionTime = time;
   std::optional<lambert::ShownSides> shown;
   if (solution) {
     shown = lambert::ShowBothSides(last.Scene.mesh, last.Tree, *solution);
@@ -84,6 +83,7 @@ void vtkRadiosityAtlas::FindSides(const lambert::RadiositySolution* solution, vt
     last.Shown = std::move(shown);
     last.Charts = lambert::ChartSet();
   }
+  last.SolutionTime = time;
 }
 
 int vtkRadiosityAtlas::RequestData(vtkInformation*, vtkInformationVector** inputs,

@@ -9,6 +9,14 @@
 
 #include <exception>
 
+/// Ends a setter of a choice, 0 to `last`, where `value` is none of them, by the sentence
+/// "`expected`, not N.".
+#define lambertRequireChoiceMacro(value, last, expected)    \
+  if (value < 0 || value > static_cast<int>(last)) {        \
+    vtkErrorMacro(<< expected << ", not " << value << "."); \
+    return;                                                 \
+  }
+
 /// Set##name and Get##name of `filter` for an option of its `Options`, where the default stands.
 #define lambertOptionMacro(filter, name, type, member) \
   void filter::Set##name(type value) {                 \
@@ -23,10 +31,7 @@
 /// the sentence "`expected`, not N.".
 #define lambertChoiceMacro(filter, name, type, member, last, expected) \
   void filter::Set##name(int value) {                                  \
-    if (value < 0 || value > static_cast<int>(last)) {                 \
-      vtkErrorMacro(<< expected << ", not " << value << ".");          \
-      return;                                                          \
-    }                                                                  \
+    lambertRequireChoiceMacro(value, last, expected);                  \
     if (this->Get##name() != value) {                                  \
       this->Options->member = static_cast<type>(value);                \
       this->Modified();                                                \

@@ -51,6 +51,17 @@ lambert::PointLight LightOf(vtkPolyData* mesh, int pages) {
   light.page = lambert::NumbersFromArray<int32_t>(mesh->GetCellData()->GetArray(Names::PageId()));
   return light;
 }
+
+/// Gives `property` a texture, or none, by the name of its sampler.
+void Bind(const char* sampler, vtkTexture* texture, vtkProperty* property) {
+  if (property->GetTexture(sampler) == texture) {
+    return;
+  }
+  property->RemoveTexture(sampler);
+  if (texture) {
+    property->SetTexture(sampler, texture);
+  }
+}
 }  // namespace
 
 vtkRadiosityActor::vtkRadiosityActor()
@@ -133,7 +144,6 @@ bool vtkRadiosityActor::Update() {
 
 void vtkRadiosityActor::UpdateLightMap() {
   *this->LightMap = {};
-  this->GetProperty()->RemoveTexture("lightMap");
   if (this->Pages.empty()) {
     return;
   }
@@ -156,7 +166,6 @@ void vtkRadiosityActor::UpdateLightMap() {
   image->SetDimensions(this->LightMap->width, this->LightMap->height, 1);
   image->GetPointData()->SetScalars(lambert::ArrayFromTuples("Irradiance", this->LightMap->pixels));
   this->LightMapTexture->SetInputData(image);
-  this->GetProperty()->SetTexture("lightMap", this->LightMapTexture);
 }
 
 void vtkRadiosityActor::UpdateAppearance() {
@@ -174,9 +183,8 @@ void vtkRadiosityActor::UpdateAppearance() {
   points->AddArray(lambert::ArrayFromTuples(kAttributes[2].second, appearance.reflectance));
   points->AddArray(lambert::ArrayFromTuples(kAttributes[3].second, appearance.lightMapCoords));
 
-  // What the eye adapts to, and the sides that are there.
+  // What the eye adapts to.
   this->Samples = lambert::ShownSamples(mesh, appearance, *this->LightMap);
-  this->GetProperty()->SetBackfaceCulling(this->Mesh->GetCellData()->HasArray(Names::Side()));
 }
 
 int vtkRadiosityActor::LightMapLevels() {
@@ -191,13 +199,8 @@ void vtkRadiosityActor::UpdateEnvironment(vtkRenderer* renderer) {
                                 this->GetProperty()->GetLighting()
                             ? renderer->GetEnvironmentTexture()
                             : nullptr;
-  if (texture != this->Environment) {
-    this->GetProperty()->RemoveTexture("environmentMap");
-    this->Environment = texture;
-    if (texture) {
-      this->GetProperty()->SetTexture("environmentMap", texture);
-    }
-  }
+  this->Environment = texture;
+  Bind("environmentMap", texture, this->GetProperty());
   if (!texture) {
     return;
   }
@@ -226,6 +229,11 @@ void vtkRadiosityActor::UpdateEnvironment(vtkRenderer* renderer) {
 }
 
 void vtkRadiosityActor::UpdateShader() {
+  // The property of the moment: the sides that are there, and the light map.
+  this->GetProperty()->SetBackfaceCulling(this->Mesh->GetCellData()->HasArray(Names::Side()));
+  Bind("lightMap", this->Pages.empty() ? nullptr : this->LightMapTexture.Get(),
+       this->GetProperty());
+
   // What it is made of.
   const char* sampler = nullptr;
   vtkTexture* base = this->BaseTexture(&sampler);

@@ -1,12 +1,12 @@
 #include "vtkRadiosityImageWriter.h"
 
 #include "Common/Core/Error.h"
-#include "Common/Core/OutputFile.h"
 #include "Display/Core/DefaultCamera.h"
 #include "Display/Core/ToneMapping.h"
 #include "FalseColorPicture.h"
 #include "LightPicture.h"
 #include "OffScreenWindow.h"
+#include "PictureFile.h"
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkErrorCode.h"
@@ -15,7 +15,6 @@
 #include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPNGWriter.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
@@ -24,7 +23,6 @@
 #include "vtkRadiosityToneMapping.h"
 #include "vtkRenderer.h"
 #include "vtkTriangleMeshAdapter.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkValueArrays.h"
 
 #include <X11/Xlib.h>
@@ -218,16 +216,9 @@ void vtkRadiosityImageWriter::WriteImage(vtkImageData* image) {
   average->SetInputData(image);
   average->SetShrinkFactors(kSupersampling, kSupersampling, 1);
   average->AveragingOn();
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(average->GetOutputPort());
-  // Into memory first: libpng prints what a file refuses.
-  writer->WriteToMemoryOn();
-  writer->Write();
-  vtkUnsignedCharArray* png = writer->GetResult();
+  average->Update();
   try {
-    lambert::WriteOutput(this->FileName,
-                         std::string(reinterpret_cast<const char*>(png->GetPointer(0)),
-                                     static_cast<size_t>(png->GetNumberOfValues())));
+    lambert::WritePicture(average->GetOutput(), this->FileName);
   } catch (const lambert::Error&) {
     this->SetErrorCode(vtkErrorCode::CannotOpenFileError);
     throw;

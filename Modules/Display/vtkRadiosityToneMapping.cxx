@@ -27,16 +27,8 @@ vtkRadiosityToneMapping::~vtkRadiosityToneMapping() = default;
 lambertOptionMacro(vtkRadiosityToneMapping, Key, double, key);
 lambertOptionMacro(vtkRadiosityToneMapping, Exposure, double, exposure);
 lambertOptionMacro(vtkRadiosityToneMapping, White, double, white);
-
-void vtkRadiosityToneMapping::SetCurve(int curve) {
-  const auto wanted = static_cast<lambert::ToneCurve>(std::clamp<int>(curve, PHOTOGRAPHIC, FILMIC));
-  if (this->Options->curve != wanted) {
-    this->Options->curve = wanted;
-    this->Modified();
-  }
-}
-
-int vtkRadiosityToneMapping::GetCurve() { return static_cast<int>(this->Options->curve); }
+lambertChoiceMacro(vtkRadiosityToneMapping, Curve, lambert::ToneCurve, curve, FILMIC,
+                   "The tone curve is PHOTOGRAPHIC, LINEAR or FILMIC");
 
 void vtkRadiosityToneMapping::SetExposureValue(double exposureValue) {
   std::optional<double> wanted;

@@ -1,35 +1,21 @@
 #include "PngImage.h"
 
+#include "Atlas/Core/PngBytes.h"
 #include "Common/Core/Error.h"
 
 #include <stb_image.h>
-#include <stb_image_write.h>
 
 #include <memory>
 
 namespace lambert {
 namespace {
-/// `codes` of `bands` bands, row after row from above.
-std::string Pack(int width, int height, int bands, const unsigned char* codes) {
-  std::string bytes;
-  const auto append = [](void* context, void* data, int size) {
-    static_cast<std::string*>(context)->append(static_cast<const char*>(data),
-                                               static_cast<size_t>(size));
-  };
-  if (!stbi_write_png_to_func(append, &bytes, width, height, bands, codes, bands * width)) {
-    throw Error("An image of " + std::to_string(width) + " x " + std::to_string(height) +
-                " texels could not be packed: there is no memory for it.");
-  }
-  return bytes;
-}
-
 bool BeginsWith(const std::string& bytes, const char* beginning) {
   return bytes.rfind(beginning, 0) == 0;
 }
 }  // namespace
 
 std::string PngOf(const LitImage& image) {
-  return Pack(image.width, image.height, 3, image.codes.data());
+  return PngBytes(image.width, image.height, 3, image.codes.data());
 }
 
 bool IsJpeg(const std::string& file) { return BeginsWith(file, "\xff\xd8\xff"); }
@@ -46,6 +32,6 @@ std::string ViewerImageOf(const std::string& file) {
   if (!codes) {
     throw Error("An image of the scene could not be decoded anew; save it as PNG.");
   }
-  return Pack(width, height, 4, codes.get());
+  return PngBytes(width, height, 4, codes.get());
 }
 }  // namespace lambert

@@ -20,13 +20,13 @@ bool EndsWith(const std::string& fileName, const std::string& end) {
 void WritePolyData(vtkPolyData* mesh, const std::string& fileName) {
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(mesh);
-  writer->SetFileName(fileName.c_str());
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetCompressorTypeToLZ4();  // zlib takes longer than many a solution.
-  // A full disk is no error to VTK's writer: see whether the end arrived.
-  if (!writer->Write() || writer->GetErrorCode() != 0 || !EndsWith(fileName, "</VTKFile>\n")) {
-    FailToWrite(fileName);
-  }
+  WriteOutput(fileName, [&](const std::string& place) {
+    writer->SetFileName(place.c_str());
+    // A full disk is no error to VTK's writer: see whether the end arrived.
+    return writer->Write() && writer->GetErrorCode() == 0 && EndsWith(place, "</VTKFile>\n");
+  });
 }
 }  // namespace lambert

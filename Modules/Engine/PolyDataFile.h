@@ -9,7 +9,7 @@
 class vtkPolyData;
 
 namespace lambert {
-/// Writes `mesh` as .vtp. Throws Error where not all of it arrives; nothing of the file is left
+/// Writes `mesh` as .vtp. Throws Error where not all of it arrives; what stood there is left
 /// then.
 LAMBERTENGINE_EXPORT void WritePolyData(vtkPolyData* mesh, const std::string& fileName);
 }  // namespace lambert

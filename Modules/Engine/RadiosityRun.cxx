@@ -84,11 +84,6 @@ class TimeBudget {
 
 /// Faces stray where a scene is so many times as large as the place of nearly all of them.
 constexpr double kStraying = 1000;
-
-bool IsTooLargeOrSmall(const Scene& scene) {
-  const float diagonal = scene.mesh.Bounds().Diagonal();
-  return !scene.lights.empty() && (diagonal > 1000 || diagonal < 0.01f);
-}
 }  // namespace
 
 RadiosityRun::RadiosityRun(const RadiosityRunOptions& options) : options_(options) {}
@@ -289,11 +284,6 @@ void RadiosityRun::Simplify(const LitMeshSimplificationOptions& options,
 std::vector<std::string> RadiosityRun::Warnings() const {
   std::vector<std::string> warnings = this->reading_.warnings;
   warnings.insert(warnings.end(), this->cleaning_.warnings.begin(), this->cleaning_.warnings.end());
-  if (IsTooLargeOrSmall(this->scene_)) {
-    warnings.push_back("The scene measures " +
-                       std::to_string(this->scene_.mesh.Bounds().Diagonal()) +
-                       " m across and has lamps of given intensity; --unit may be wanted.");
-  }
   const double across = this->scene_.mesh.Bounds().Diagonal();
   if (const double most = DiagonalOfMost(this->scene_.mesh);
       most > 0 && across > kStraying * most) {
@@ -305,8 +295,7 @@ std::vector<std::string> RadiosityRun::Warnings() const {
   if (!this->statistics_.stateFailure.empty()) warnings.push_back(this->statistics_.stateFailure);
   if (this->error_ && this->error_->points == 0) {
     warnings.push_back("No error was measured: no place was found that receives light.");
-  } else if (this->error_ &&
-             this->error_->rmsHigh - this->error_->rmsLow > 0.3 * this->error_->rms) {
+  } else if (this->error_ && !this->error_->IsRmsSure()) {
     warnings.push_back(
         "The interval of the measured error is wider than 30 % of it; the bounded error counts.");
   }

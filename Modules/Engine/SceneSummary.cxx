@@ -12,16 +12,13 @@ Spectrum LampPower(const Light& light) {
   const std::unique_ptr<LightSource> source = MakeLightSource(light);
   Vec3f u, v;
   CoordinateSystem(light.direction, &u, &v);
-  double power[3] = {0, 0, 0};
+  SpectrumSum power;
   for (int ring = 0; ring < kRings; ++ring) {
     const float z = 1 - 2 * (static_cast<float>(ring) + 0.5f) / kRings;
-    const Spectrum intensity =
-        source->Intensity(light.direction * z + u * std::sqrt(std::max(0.f, 1 - z * z)));
-    for (int band = 0; band < 3; ++band) {
-      power[band] += intensity[band] * 4 * kPi / kRings;
-    }
+    power.Add(source->Intensity(light.direction * z + u * std::sqrt(std::max(0.f, 1 - z * z))),
+              4 * kPi / kRings);
   }
-  return {float(power[0]), float(power[1]), float(power[2])};
+  return power.Total();
 }
 }  // namespace
 
@@ -41,18 +38,16 @@ SceneSummary SummarizeScene(const Scene& scene) {
   summary.bounds = mesh.Bounds();
 
   // Emitting faces.
-  double power[3] = {0, 0, 0};
+  SpectrumSum power;
   for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
     const double area = mesh.Area(face);
     const Spectrum& emittance = mesh.emittance[static_cast<size_t>(face)];
     const int sides = (mesh.Emits(face, kFront) ? 1 : 0) + (mesh.Emits(face, kBack) ? 1 : 0);
     summary.area += area;
     summary.emittingFaces += sides > 0 && !emittance.IsBlack();
-    for (int band = 0; band < 3; ++band) {
-      power[band] += sides * area * emittance[band];
-    }
+    power.Add(emittance, sides * area);
   }
-  summary.emittedByFaces = {float(power[0]), float(power[1]), float(power[2])};
+  summary.emittedByFaces = power.Total();
 
   // Lamps.
   for (const Light& light : scene.lights) {

@@ -7,14 +7,13 @@
 #include "Scene/Core/SceneKey.h"
 #include "Scene/Core/SceneMaterials.h"
 #include "vtkCommand.h"
+#include "vtkCoreShell.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMethodPorts.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkTable.h"
-
-#include <algorithm>
 
 vtkStandardNewMacro(vtkHierarchicalRadiosity);
 
@@ -58,15 +57,19 @@ lambertOptionOfRunMacro(SnapTolerance, float, leafMesh.snapTolerance);
 #undef lambertOptionOfRunMacro
 
 // The choices of the core, in the order of the enumerations here.
-#define lambertChoiceMacro(name, type, last, member)                                             \
-  void vtkHierarchicalRadiosity::Set##name(int value) {                                          \
-    this->SetOption(&this->Options->member, static_cast<type>(std::clamp<int>(value, 0, last))); \
-  }                                                                                              \
+#define lambertChoiceOfRunMacro(name, type, last, member, expected)    \
+  void vtkHierarchicalRadiosity::Set##name(int value) {                \
+    lambertRequireChoiceMacro(value, last, expected);                  \
+    this->SetOption(&this->Options->member, static_cast<type>(value)); \
+  }                                                                    \
   int vtkHierarchicalRadiosity::Get##name() { return static_cast<int>(this->Options->member); }
-lambertChoiceMacro(Refinement, lambert::PatchRefinement, QUADTREE, leafMesh.refinement);
-lambertChoiceMacro(Oracle, lambert::OracleKind, PERCEPTUAL, oracle);
-lambertChoiceMacro(Schedule, lambert::Schedule, INTERLEAVED, schedule);
-#undef lambertChoiceMacro
+lambertChoiceOfRunMacro(Refinement, lambert::PatchRefinement, QUADTREE, leafMesh.refinement,
+                        "The refinement is RECTANGLE or QUADTREE");
+lambertChoiceOfRunMacro(Oracle, lambert::OracleKind, PERCEPTUAL, oracle,
+                        "The oracle is DOUBT, GEOMETRIC, BFA, VISIBILITY or PERCEPTUAL");
+lambertChoiceOfRunMacro(Schedule, lambert::Schedule, INTERLEAVED, schedule,
+                        "The schedule is SCHEDULED or INTERLEAVED");
+#undef lambertChoiceOfRunMacro
 
 #define lambertFileNameMacro(name, member)                                  \
   void vtkHierarchicalRadiosity::Set##name(const char* file) {              \

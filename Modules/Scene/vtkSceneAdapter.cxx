@@ -109,6 +109,17 @@ void PolyDataFromSolution(const RadiositySolution& solution, const Scene& scene,
   WriteSceneTables(scene, output->GetFieldData());
 }
 
+std::vector<uint8_t> SidesFromArray(vtkDataArray* array) {
+  const std::vector<int> numbers = NumbersFromArray<int>(array);
+  for (const int side : numbers) {
+    if (side != kFront && side != kBack) {
+      throw Error(std::string("The array ") + Names::Side() + " has the entry " +
+                  std::to_string(side) + "; a side is 0, the front, or 1, the back.");
+    }
+  }
+  return std::vector<uint8_t>(numbers.begin(), numbers.end());
+}
+
 RadiositySolution SolutionFromPolyData(vtkPolyData* input) {
   RadiositySolution solution;
   solution.mesh = TriangleMeshFromPolyData(input);
@@ -117,7 +128,7 @@ RadiositySolution SolutionFromPolyData(vtkPolyData* input) {
   vtkPointData* pointData = input->GetPointData();
   solution.inputFaceId =
       NumbersFromArray<int64_t>(RequireArray(cells, Names::InputFaceId(), 1, faces));
-  solution.side = NumbersFromArray<uint8_t>(RequireArray(cells, Names::Side(), 1, faces));
+  solution.side = SidesFromArray(RequireArray(cells, Names::Side(), 1, faces));
   solution.irradiance = TuplesFromArray<Spectrum>(
       RequireArray(pointData, Names::Irradiance(), 3, points), Names::Irradiance());
   solution.radiosity = TuplesFromArray<Spectrum>(

@@ -8,6 +8,7 @@
 #include "Scene/Core/Scene.h"
 #include "lambertSceneModule.h"
 
+class vtkDataArray;
 class vtkPolyData;
 
 namespace lambert {
@@ -34,9 +35,13 @@ LAMBERTSCENE_EXPORT void PolyDataFromScene(const Scene& scene, vtkPolyData* outp
 LAMBERTSCENE_EXPORT void PolyDataFromSolution(const RadiositySolution& solution, const Scene& scene,
                                               vtkPolyData* output);
 
+/// The sides of faces (kFront, kBack) in an array of one component. Throws Error for what is no
+/// side.
+LAMBERTSCENE_EXPORT std::vector<uint8_t> SidesFromArray(vtkDataArray* array);
+
 /// The solution that output port 0 of a method carries, `inputIrradiance` and `leafId` apart.
 /// Throws Error where InputFaceId, Side, Irradiance or Radiosity is missing or of the wrong shape,
-/// and for cells that are no triangles.
+/// for faces below 0 and what is no side, and for cells that are no triangles.
 LAMBERTSCENE_EXPORT RadiositySolution SolutionFromPolyData(vtkPolyData* input);
 }  // namespace lambert
 

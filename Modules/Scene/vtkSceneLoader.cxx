@@ -271,6 +271,9 @@ Scene LoadScene(const std::vector<std::string>& files, const SceneReaderOptions&
     vtkSmartPointer<vtkPolyData> stored = ReadVtp(file);
     Scene scene = SceneAsStoredInPolyData(stored);
     ReadEnvironmentImages(&scene.lights);
+    for (const Light& light : scene.lights) {
+      if (light.image) assembly.report.companions.push_back(light.imageFile);
+    }
     const bool hasReflectance =
         stored->GetCellData()->GetArray(vtkRadiosityArrays::Reflectance()) != nullptr;
     assembly.report.faces += stored->GetNumberOfPolys() + stored->GetNumberOfStrips();

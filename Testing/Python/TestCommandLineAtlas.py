@@ -2,7 +2,7 @@
 import json
 import os
 
-from CommandLine import CORNELL_BOX, run, temporary
+from CommandLine import CORNELL_BOX, fails, run, temporary
 
 output, picture, report = temporary("atlas.vtp"), temporary("atlas.png"), temporary("atlas.json")
 done = run("atlas", CORNELL_BOX, "-o", output, "--image", picture, "--report", report, "--page-size", "256")
@@ -17,6 +17,15 @@ assert os.path.getsize(output) > 0 and open(picture, "rb").read(4) == b"\x89PNG"
 more = run("atlas", CORNELL_BOX, "-o", output, "--report", report, "--page-size", "256", "--texel-size", "0.003")
 assert more.returncode == 0, more.stderr
 assert json.load(open(report))["pages"] > 1
+
+# A device that takes no byte stands for a full disk: one sentence, and no word of the PNG library.
+full = temporary("full.png")
+if os.path.lexists(full):
+    os.remove(full)
+os.symlink("/dev/full", full)
+fails(1, "atlas", CORNELL_BOX, "-o", output, "--progress", "none", "--page-size", "256", "--image", full,
+      says=["could not be written", "room"])
+os.remove(full)
 
 # One sentence each.
 for wrong, code in (

@@ -2,7 +2,8 @@
 import os
 import shutil
 
-from CommandLine import CORNELL_BOX, DATA, fails, run, temporary
+import numpy as np
+from CommandLine import CORNELL_BOX, DATA, fails, run, temporary, write_hdr
 
 out = temporary("never.vtp")
 bad = os.path.join(DATA, "Bad")
@@ -47,6 +48,9 @@ scene = temporary("scene.ply")
 fails(2, "solve", scene, "-o", os.path.join(os.path.dirname(scene), ".", "scene.ply"), says=["write over", "SCENE"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--report", out, says=["write over", "--output"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--probe", out, "--probe-output", out, says=["write over"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--probe", out + ".part", "--probe-output", out + ".csv", says=["write over"])
+fails(1, "solve", "missing.obj", "-o", out, "--probe", "missing.csv", "--probe-output", "/dev/null", "--report", "/dev/null",
+      says=["missing"])
 sky = temporary("sky.hdr")
 fails(2, "solve", CORNELL_BOX, "-o", out, "--environment", sky, "--save-state", sky, says=["write over"])
 state = temporary("state")
@@ -60,7 +64,12 @@ shutil.copyfile(os.path.splitext(CORNELL_BOX)[0] + ".mtl", library)
 with open(CORNELL_BOX) as box, open(room, "w") as file:
     file.write(box.read().replace("CornellBox.mtl", "room.mtl"))
 fails(1, "solve", room, "-o", out, "--report", library, "--progress", "none", says=["write over", "SCENE"])
+fails(1, "atlas", room, "-o", out, "--report", library, "--progress", "none", says=["write over", "SCENE"])
 assert os.path.getsize(library) == os.path.getsize(os.path.splitext(CORNELL_BOX)[0] + ".mtl")
+surroundings, under_them = write_hdr(temporary("surroundings.hdr"), np.ones((2, 4, 3))), temporary("open.vtp")
+assert run("solve", CORNELL_BOX, "-o", under_them, "--environment", surroundings, "--iterations", "1", "--progress",
+           "none").returncode == 0
+fails(1, "solve", under_them, "-o", out, "--report", surroundings, "--progress", "none", says=["write over", "SCENE"])
 
 # Scenes that cannot be read or lit: 1.
 fails(1, "solve", "missing.obj", "-o", out, says=["missing.obj"])
@@ -107,6 +116,13 @@ for wrong in (("Float32", "Float3e"), ('NumberOfComponents="3"', 'NumberOfCompon
 for option, ending in (("-o", "vtp"), ("--report", "json"), ("--image", "png")):
     outputs = {"-o": out, option: "/no/such/folder/file." + ending}
     fails(1, "solve", "missing.obj", *sum(([k, v] for k, v in outputs.items()), []), says=["/no/such/folder"])
+# So are those whose names the others give.
+for other, arguments in (("map-0.hdr", ["-o", out, "--lightmap", temporary("map.vtp")]),
+                         ("model-0.png", ["-o", temporary("model.obj")]),
+                         ("new.state.part", ["-o", out, "--save-state", temporary("new.state")])):
+    os.makedirs(temporary(other))
+    fails(1, "solve", "missing.obj", *arguments, says=[other, "cannot be written"])
+    temporary(other)
 folder = temporary("folder.vtp")
 os.makedirs(folder, exist_ok=True)
 fails(1, "solve", CORNELL_BOX, "-o", folder, says=["is a folder"])

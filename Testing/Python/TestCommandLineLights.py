@@ -5,7 +5,7 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
-from CommandLine import fails, solve, temporary, write_hdr
+from CommandLine import CORNELL_BOX, fails, solve, temporary, write_hdr
 
 out = temporary("court.vtp")
 
@@ -100,6 +100,10 @@ for threads in (1, 2):
     solve(court, "-o", out, "--environment", sunny, "--sky-gradient", 1, 1, 1, 2, 2, 2, "--iterations", 3, "--threads", threads)
     bits.append(floor_light(out, "z")[1])
 assert np.array_equal(*bits)
+
+# Light from far away is the same at any size of the scene: there is nothing to warn of.
+report = solve(CORNELL_BOX, "-o", out, "--unit", "mm", "--sky", 1, 1, 1, "--sun", 0, 45, 1, 1, 1, "--iterations", 1)
+assert report["scene"]["diagonal_m"] < 0.01 and not report["warnings"], report["warnings"]
 
 # What is no sun, and no environment.
 for bad in (["--sun", 0, 91, 1, 1, 1], ["--sun", 400, 10, 1, 1, 1], ["--sun", 0, 10, 1, 1, -1], ["--sun", 0, 10, 1],

@@ -9,6 +9,8 @@
 
 #include <filesystem>
 
+#include "Atlas/Core/PngBytes.h"
+#include "Common/Core/Error.h"
 #include "Common/Core/OutputFile.h"
 
 namespace lambert {
@@ -39,18 +41,16 @@ void WriteExr(const std::string& name, int size, std::vector<Spectrum> rows) {
     bands.insert(names[band], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(&rows[0][band]),
                                          sizeof(Spectrum), sizeof(Spectrum) * size_t(size)));
   }
-  try {
-    Imf::OutputFile file(name.c_str(), header);
-    file.setFrameBuffer(bands);
-    file.writePixels(size);
-  } catch (const std::exception&) {
-    FailToWrite(name);  // The library's sentence names its own insides.
-  }
-}
-
-/// Takes what stb makes.
-void Append(void* bytes, void* more, int size) {
-  static_cast<std::string*>(bytes)->append(static_cast<const char*>(more), size_t(size));
+  WriteOutput(name, [&](const std::string& place) {
+    try {
+      Imf::OutputFile file(place.c_str(), header);
+      file.setFrameBuffer(bands);
+      file.writePixels(size);
+      return true;
+    } catch (const std::exception&) {
+      return false;  // The library's sentence names its own insides.
+    }
+  });
 }
 
 void WritePng(const std::string& name, int size, const std::vector<Spectrum>& rows,
@@ -60,16 +60,17 @@ void WritePng(const std::string& name, int size, const std::vector<Spectrum>& ro
   for (const Spectrum& texel : rows) {
     for (const uint8_t code : codes(texel)) texels.push_back(code);
   }
-  std::string png;
-  if (!stbi_write_png_to_func(Append, &png, size, size, 3, texels.data(), 3 * size)) {
-    FailToWrite(name);
-  }
-  WriteOutput(name, png);
+  WriteOutput(name, PngBytes(size, size, 3, texels.data()));
 }
 
 void WriteHdr(const std::string& name, int size, const std::vector<Spectrum>& rows) {
   std::string hdr;
-  if (!stbi_write_hdr_to_func(Append, &hdr, size, size, 3, &rows[0].r)) FailToWrite(name);
+  const auto append = [](void* to, void* more, int count) {
+    static_cast<std::string*>(to)->append(static_cast<const char*>(more), size_t(count));
+  };
+  if (!stbi_write_hdr_to_func(append, &hdr, size, size, 3, &rows[0].r)) {
+    throw Error("The page " + name + " could not be packed: there is no memory for it.");
+  }
   WriteOutput(name, hdr);
 }
 

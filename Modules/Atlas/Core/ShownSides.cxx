@@ -29,8 +29,14 @@ struct SideLight {
 /// By surface and side.
 std::vector<std::array<SideLight, 2>> LightOfSurfaces(const TriangleMesh& mesh,
                                                       const RadiositySolution& solution) {
+  if (mesh.surfaceId.size() != mesh.triangles.size()) {
+    throw Error("The mesh does not tell the surfaces of its faces; cluster them first.");
+  }
   int32_t count = 0;
-  for (const int32_t surface : mesh.surfaceId) count = std::max(count, surface + 1);
+  for (const int32_t surface : mesh.surfaceId) {
+    if (surface < 0) throw Error("The mesh has a surface below 0; cluster its faces first.");
+    count = std::max(count, surface + 1);
+  }
   std::vector<std::array<SideLight, 2>> light(static_cast<size_t>(count));
   for (size_t t = 0; t < solution.mesh.triangles.size(); ++t) {
     const size_t surface = size_t(mesh.surfaceId[size_t(solution.inputFaceId[t])]);
@@ -103,6 +109,10 @@ std::vector<uint8_t> BrighterSidesOfSurfaces(const TriangleMesh& mesh,
 std::vector<bool> FindSheets(const TriangleMesh& mesh, const ClusterTree& tree,
                              const RadiositySolution& solution) {
   const std::vector<std::array<SideLight, 2>> lights = LightOfSurfaces(mesh, solution);
+  if (lights.size() > tree.surfaceRoots.size()) {
+    throw Error("The mesh has " + std::to_string(lights.size()) + " surfaces, its cluster tree " +
+                std::to_string(tree.surfaceRoots.size()) + "; take both from one clustering.");
+  }
   SideLight all;
   for (const auto& light : lights) {
     const SideLight& brighter = light[BrighterSide(light)];
@@ -171,6 +181,10 @@ RadiositySolution OntoShownSides(RadiositySolution solution, const std::vector<i
   std::vector<std::array<int64_t, 2>> shows;
   for (size_t face = 0; face < inputFace.size(); ++face) {
     const size_t input = size_t(inputFace[face]);
+    if (input >= inputFace.size()) {
+      throw Error("The mesh shows face " + std::to_string(inputFace[face]) +
+                  ", which what was solved cannot have; it takes the output of vtkRadiosityAtlas.");
+    }
     if (input >= shows.size()) shows.resize(input + 1, {-1, -1});
     shows[input][side[face]] = int64_t(face);
   }

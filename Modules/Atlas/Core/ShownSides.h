@@ -16,7 +16,8 @@ namespace lambert {
 /// the same one in another order.
 void RequireSameFaces(const TriangleMesh& mesh, const RadiositySolution& solution);
 
-/// Of every surface of `mesh` the side that shows in a light map, by mean irradiance.
+/// Of every surface of `mesh` the side that shows in a light map: that which receives more power,
+/// of dark ones the larger.
 std::vector<uint8_t> BrighterSidesOfSurfaces(const TriangleMesh& mesh,
                                              const RadiositySolution& solution);
 

@@ -5,26 +5,17 @@
 #include "Classical/Core/LampsAndSky.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
+#include "Visibility/Core/LampBalance.h"
 
 namespace lambert {
 
 namespace {
 
 constexpr int kEscapeRays = 32768;
-constexpr int kRaysPerLamp = 4096;
-
-/// A sum over many.
-struct PowerSum {
-  double r = 0, g = 0, b = 0;
-  void Add(const Spectrum& s, double weight) {
-    r += double(s.r) * weight, g += double(s.g) * weight, b += double(s.b) * weight;
-  }
-  Spectrum Total() const { return {float(r), float(g), float(b)}; }
-};
 
 /// What leaves the sides and meets nothing, by rays in proportion to it.
 void AddEscaping(const ElementSides& sides, const SideLight& light, const RayScene& rayScene,
-                 PowerSum* escaped) {
+                 SpectrumSum* escaped) {
   std::vector<double> leavingUpTo(size_t(sides.Count()));
   double leaving = 0;
   for (size_t i = 0; i < leavingUpTo.size(); ++i) {
@@ -54,23 +45,6 @@ void AddEscaping(const ElementSides& sides, const SideLight& light, const RaySce
     if (side < 0) continue;
     const Spectrum& radiosity = light.radiosity[size_t(side)];
     escaped->Add(radiosity, leaving / kEscapeRays / double(radiosity.Mean()));
-  }
-}
-
-/// All light of a lamp, and the part that meets nothing, over directions of equal solid angle.
-void AddLamp(const LightSource& lamp, const RayScene& rayScene, PowerSum* emitted,
-             PowerSum* escaped) {
-  const double solidAngle = 4 * kPi / kRaysPerLamp;
-  Random random(7);
-  for (int i = 0; i < kRaysPerLamp; ++i) {
-    const float z = 1 - 2 * (float(i) + random.Uniform()) / kRaysPerLamp;
-    const float phi = float(2 * kPi) * random.Uniform(), s = std::sqrt(std::max(0.f, 1 - z * z));
-    const Vec3f direction(s * std::cos(phi), s * std::sin(phi), z);
-    const Spectrum intensity = lamp.Intensity(direction);
-    if (intensity.IsBlack()) continue;
-    emitted->Add(intensity, solidAngle);
-    if (rayScene.OccludedDirection(lamp.Position(), direction)) continue;
-    escaped->Add(intensity, solidAngle);
   }
 }
 
@@ -108,7 +82,7 @@ std::vector<Spectrum> SideLight::IrradianceByKey(const ElementSides& sides, int6
 
 void MeasureElementBalance(const Scene& scene, const ElementSides& sides, const SideLight& light,
                            const RayScene& rayScene, SolverStatistics* statistics) {
-  PowerSum emitted, absorbed, escaped;
+  SpectrumSum emitted, absorbed, escaped;
   for (size_t i = 0; i < sides.triangles.size(); ++i) {
     const double area = double(sides.ExposedArea(i));
     const Spectrum& arriving = light.irradiance[i];
@@ -116,8 +90,10 @@ void MeasureElementBalance(const Scene& scene, const ElementSides& sides, const 
     absorbed.Add(arriving - sides.reflectance[i] * arriving, area);
   }
   AddEscaping(sides, light, rayScene, &escaped);
-  for (const auto& lamp : LightSources(scene.lights)) {
-    if (!lamp->IsFar()) AddLamp(*lamp, rayScene, &emitted, &escaped);
+  for (const auto& lamp : LightSources(SelectLights(scene.lights, false))) {
+    const LampBalance balance = MeasureLampBalance(*lamp, rayScene);
+    emitted.Add(balance.emitted);
+    escaped.Add(balance.escaped);
   }
   statistics->emitted = emitted.Total();
   statistics->absorbed = absorbed.Total();

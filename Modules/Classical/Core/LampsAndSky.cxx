@@ -1,25 +1,11 @@
 #include "Classical/Core/LampsAndSky.h"
 
-#include <algorithm>
-#include <iterator>
-
 namespace lambert {
 
-namespace {
-
-std::vector<Light> LightsOf(const Scene& scene, bool isFar) {
-  std::vector<Light> lights;
-  std::copy_if(scene.lights.begin(), scene.lights.end(), std::back_inserter(lights),
-               [isFar](const Light& light) {
-                 return !light.IsBlack() && MakeLightSource(light)->IsFar() == isFar;
-               });
-  return lights;
-}
-
-}  // namespace
-
 LampsAndSky::LampsAndSky(const Scene& scene, const RayScene& rays)
-    : rays_(rays), near_(LightsOf(scene, false)), far_(LightsOf(scene, true)) {}
+    : rays_(rays),
+      near_(SelectLights(scene.lights, false)),
+      far_(SelectLights(scene.lights, true)) {}
 
 Spectrum LampsAndSky::FromLamps(const LightReceiver& at, int64_t* cast) const {
   return FromSamples(near_, at, rays_, cast);

@@ -39,6 +39,16 @@ struct Spectrum {
 };
 
 inline Spectrum operator*(float s, const Spectrum& spectrum) { return spectrum * s; }
+/// A sum over many.
+struct SpectrumSum {
+  double r = 0, g = 0, b = 0;
+
+  void Add(const Spectrum& s, double weight = 1) {
+    r += double(s.r) * weight, g += double(s.g) * weight, b += double(s.b) * weight;
+  }
+  Spectrum Total() const { return {float(r), float(g), float(b)}; }
+};
+
 /// Sum of the squares of the bands.
 inline double SquaredNorm(const Spectrum& s) {
   return double(s.r) * s.r + double(s.g) * s.g + double(s.b) * s.b;

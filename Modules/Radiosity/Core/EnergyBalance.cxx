@@ -5,44 +5,16 @@
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
 #include "Radiosity/Core/LightExchange.h"
+#include "Visibility/Core/LampBalance.h"
 
 namespace lambert {
 
 namespace {
 
 constexpr int kRaysForEscape = 32768, kRaysForCover = 32768;
-constexpr int kRaysPerLight = 4096;
-
-struct Power {
-  double r = 0, g = 0, b = 0;
-  Power& operator+=(const Power& p) {
-    r += p.r, g += p.g, b += p.b;
-    return *this;
-  }
-  void Add(const Spectrum& s, double weight) {
-    r += double(s.r) * weight, g += double(s.g) * weight, b += double(s.b) * weight;
-  }
-  Spectrum ToSpectrum() const { return {float(r), float(g), float(b)}; }
-};
 
 bool IsSurfaceLeaf(const Element& element) {
   return element.IsLeaf() && !element.IsVolume() && element.kind != ElementKind::Light;
-}
-
-/// Light of a lamp: all of it, and the part that meets nothing, over directions of equal solid
-/// angle.
-void AddLamp(const LightSource& lamp, const RayScene& rayScene, Power* emitted, Power* escaped) {
-  Random random(7);
-  const double solidAngle = 4 * kPi / kRaysPerLight;
-  for (int i = 0; i < kRaysPerLight; ++i) {
-    const float z = 1 - 2 * (float(i) + random.Uniform()) / kRaysPerLight;
-    const float phi = float(2 * kPi) * random.Uniform(), s = std::sqrt(std::max(0.f, 1 - z * z));
-    const Vec3f direction(s * std::cos(phi), s * std::sin(phi), z);
-    const Spectrum intensity = lamp.Intensity(direction);
-    if (intensity.IsBlack()) continue;
-    emitted->Add(intensity, solidAngle);
-    if (rayScene.Closest(lamp.Position(), direction).face < 0) escaped->Add(intensity, solidAngle);
-  }
 }
 
 /// Leaves, drawn in proportion to a power of each.
@@ -84,7 +56,7 @@ std::vector<uint8_t> BlackEmitters(const ElementHierarchy& hierarchy) {
 /// What leaves the leaves and meets nothing, or emitters that are no receivers. Of covered places
 /// only what they emit is seen.
 void FollowLeaving(const ElementHierarchy& hierarchy, const ElementLight& light,
-                   const RayScene& rayScene, Power* escaped, Power* absorbed) {
+                   const RayScene& rayScene, SpectrumSum* escaped, SpectrumSum* absorbed) {
   LeafDraw leaving;
   for (int32_t index = 0; index < hierarchy.Size(); ++index) {
     if (!IsSurfaceLeaf(hierarchy[index])) continue;
@@ -117,8 +89,8 @@ void FollowLeaving(const ElementHierarchy& hierarchy, const ElementLight& light,
     }
   });
   for (size_t i = 0; i < fate.size(); ++i) {
-    if (fate[i] == Fate::Escapes) escaped->Add(carried[i], 1);
-    if (fate[i] == Fate::MeetsBlackEmitter) absorbed->Add(carried[i], 1);
+    if (fate[i] == Fate::Escapes) escaped->Add(carried[i]);
+    if (fate[i] == Fate::MeetsBlackEmitter) absorbed->Add(carried[i]);
   }
 }
 
@@ -128,9 +100,9 @@ Spectrum Absorbed(const Element& leaf, const Spectrum& irradiance) {
 }
 
 /// Of what leaves absorb, the part that falls on covered places, W.
-Power FindCovered(const ElementHierarchy& hierarchy, const std::vector<Spectrum>& irradiance,
-                  const RayScene& rayScene) {
-  Power covered;
+SpectrumSum FindCovered(const ElementHierarchy& hierarchy, const std::vector<Spectrum>& irradiance,
+                        const RayScene& rayScene) {
+  SpectrumSum covered;
   LeafDraw absorbing;
   for (int32_t index = 0; index < hierarchy.Size(); ++index) {
     const Element& e = hierarchy[index];
@@ -148,7 +120,7 @@ Power FindCovered(const ElementHierarchy& hierarchy, const std::vector<Spectrum>
     found[size_t(i)] =
         absorbed * float(absorbing.Total() / kRaysForCover / double(absorbed.Mean()));
   });
-  for (const Spectrum& f : found) covered.Add(f, 1);
+  for (const Spectrum& f : found) covered.Add(f);
   return covered;
 }
 
@@ -158,7 +130,7 @@ void MeasureEnergyBalance(const ElementHierarchy& hierarchy, const LinkNetwork& 
                           const ElementLight& light, const RayScene& rayScene,
                           SolverStatistics* statistics) {
   // Emitted and absorbed, leaf by leaf.
-  Power emitted, absorbed, escaped;
+  SpectrumSum emitted, absorbed, escaped;
   std::vector<Spectrum> irradiance(size_t(hierarchy.Size()));
   for (int32_t index = 0; index < hierarchy.Size(); ++index) {
     const Element& element = hierarchy[index];
@@ -171,11 +143,14 @@ void MeasureEnergyBalance(const ElementHierarchy& hierarchy, const LinkNetwork& 
   FollowLeaving(hierarchy, light, rayScene, &escaped, &absorbed);
 
   // Lights without geometry: placed ones with all that they give, far ones with what arrives.
-  for (const auto& lamp : LightSources(hierarchy.GetScene().lights)) {
-    if (!lamp->IsFar()) AddLamp(*lamp, rayScene, &emitted, &escaped);
-  }
   for (const int32_t source : hierarchy.Lights()) {
-    if (!hierarchy.LightOf(hierarchy[source]).IsFar()) continue;
+    const LightSource& lamp = hierarchy.LightOf(hierarchy[source]);
+    if (!lamp.IsFar()) {
+      const LampBalance balance = MeasureLampBalance(lamp, rayScene);
+      emitted.Add(balance.emitted);
+      escaped.Add(balance.escaped);
+      continue;
+    }
     for (int32_t index = 0; index < hierarchy.Size(); ++index) {
       for (const Link& link : network.incoming[size_t(index)]) {
         if (link.source != source) continue;
@@ -184,10 +159,10 @@ void MeasureEnergyBalance(const ElementHierarchy& hierarchy, const LinkNetwork& 
       }
     }
   }
-  statistics->emitted = emitted.ToSpectrum();
-  statistics->absorbed = absorbed.ToSpectrum();
-  statistics->escaped = escaped.ToSpectrum();
-  statistics->covered = FindCovered(hierarchy, irradiance, rayScene).ToSpectrum();
+  statistics->emitted = emitted.Total();
+  statistics->absorbed = absorbed.Total();
+  statistics->escaped = escaped.Total();
+  statistics->covered = FindCovered(hierarchy, irradiance, rayScene).Total();
 }
 
 }  // namespace lambert

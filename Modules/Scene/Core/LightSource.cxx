@@ -1,5 +1,6 @@
 #include "Scene/Core/LightSource.h"
 
+#include <algorithm>
 #include <cstring>
 #include <iterator>
 
@@ -21,6 +22,13 @@ bool IsLightType(double number) { return number >= 0 && number < double(std::siz
 std::unique_ptr<LightSource> MakeLightSource(const Light& light) {
   if (IsLightType(double(light.type))) return kMakers[size_t(light.type)](light);
   throw Error("The light \"" + light.name + "\" is of no known type.");
+}
+
+std::vector<Light> SelectLights(const std::vector<Light>& lights, bool areFar) {
+  std::vector<Light> selected;
+  std::copy_if(lights.begin(), lights.end(), std::back_inserter(selected),
+               [areFar](const Light& light) { return light.IsPlaced() != areFar; });
+  return selected;
 }
 
 uint64_t SeedOfPlace(const Vec3f& position) {

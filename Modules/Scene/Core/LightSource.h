@@ -1,5 +1,5 @@
 // Lights without geometry, as methods see them. A new kind is one class, and its maker in the table
-// of LightSource.cxx.
+// of LightSource.cxx; Light::IsPlaced says whether it stands at a place.
 #pragma once
 
 #include <algorithm>
@@ -62,6 +62,9 @@ bool IsLightType(double number);
 
 /// Throws Error for an environment without its image.
 std::unique_ptr<LightSource> MakeLightSource(const Light& light);
+
+/// Of `lights` those that are far (LightSource::IsFar), or the others: none is made to know it.
+std::vector<Light> SelectLights(const std::vector<Light>& lights, bool areFar);
 
 /// A place that lights shine on: irradiance is for `normal`, from directions in the hemispheres of
 /// both unit normals.

@@ -1,5 +1,6 @@
 #include "Scene/Core/RadianceFile.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -15,6 +16,7 @@ namespace {
 
 constexpr int64_t kMostTexels = int64_t(1) << 28;
 /// Rows as wide as this may be stored band by band.
+constexpr size_t kMostTexelsOfByte = 64;
 constexpr int kLeastBandWidth = 8, kMostBandWidth = 0x7fff;
 
 using Rgbe = std::array<uint8_t, 4>;
@@ -61,8 +63,9 @@ class Bytes {
 };
 
 /// Each band in runs of one value and stretches of others.
-void ReadBands(Bytes* bytes, int width, Rgbe* row) {
+void ReadBands(Bytes* bytes, int width, std::vector<Rgbe>* row) {
   constexpr int kRun = 128;
+  row->resize(size_t(width));
   for (size_t band = 0; band < 4; ++band) {
     for (int x = 0; x < width;) {
       int count = bytes->Next();
@@ -72,7 +75,7 @@ void ReadBands(Bytes* bytes, int width, Rgbe* row) {
       uint8_t value = isRun ? bytes->Next() : 0;
       for (; count > 0; --count, ++x) {
         if (!isRun) value = bytes->Next();
-        row[x][band] = value;
+        (*row)[size_t(x)][band] = value;
       }
     }
   }
@@ -80,18 +83,19 @@ void ReadBands(Bytes* bytes, int width, Rgbe* row) {
 
 /// Pixels; one of mantissas 1 says how often the one before comes again, each such one behind
 /// another a digit to base 256.
-void ReadPixels(Bytes* bytes, int width, Rgbe* row) {
+void ReadPixels(Bytes* bytes, int width, std::vector<Rgbe>* row) {
+  row->clear();
   int shift = 0;
-  for (int x = 0; x < width;) {
+  while (int64_t(row->size()) < width) {
     const Rgbe pixel = bytes->NextPixel();
     if (pixel[0] != 1 || pixel[1] != 1 || pixel[2] != 1) {
-      row[x++] = pixel;
+      row->push_back(pixel);
       shift = 0;
       continue;
     }
     const int64_t count = shift <= 16 ? int64_t(pixel[3]) << shift : width;
-    if (x == 0 || count > width - x) throw Error("is damaged");
-    for (const int end = x + int(count); x < end; ++x) row[x] = row[x - 1];
+    if (row->empty() || count > width - int64_t(row->size())) throw Error("is damaged");
+    row->resize(row->size() + size_t(count), Rgbe(row->back()));
     shift += 8;
   }
 }
@@ -127,15 +131,17 @@ RadiancePixels DecodeRadiance(const unsigned char* bytes, size_t size) {
   double exposure = 1;
   ReadHeader(&left, &image.width, &image.height, &exposure);
 
-  // Rows, each stored in a way of its own. A file is no smaller than a byte for 64 texels.
-  if (int64_t(size) < int64_t(image.width) * image.height / 64) throw Error("is cut off");
-  std::vector<Rgbe> row(size_t(image.width));
-  image.texels.reserve(size_t(image.width) * size_t(image.height));
+  // Room for no more than the bytes hold band by band; runs of pixels may hold more.
+  image.texels.reserve(
+      std::min(size_t(image.width) * size_t(image.height), size * kMostTexelsOfByte));
+
+  // Rows, each stored in a way of its own.
+  std::vector<Rgbe> row;
   for (int y = 0; y < image.height; ++y) {
     if (left.BeginsBands(image.width)) {
-      ReadBands(&left, image.width, row.data());
+      ReadBands(&left, image.width, &row);
     } else {
-      ReadPixels(&left, image.width, row.data());
+      ReadPixels(&left, image.width, &row);
     }
     for (const Rgbe& pixel : row) image.texels.push_back(ToSpectrum(pixel) * float(1 / exposure));
   }

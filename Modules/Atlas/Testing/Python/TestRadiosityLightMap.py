@@ -3,7 +3,10 @@ import os
 
 import lambert
 import numpy as np
+from vtkmodules.util.misc import calldata_type
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.vtkConstants import VTK_STRING
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 reader = lambert.vtkRadiositySceneReader()
 reader.SetFileName(os.path.join(os.environ["LAMBERT_DATA_DIR"], "CornellBox", "CornellBox.obj"))
@@ -147,4 +150,49 @@ atlas.SetTexelDensity(atlas.ILLUMINATION)
 light_map.Update()
 assert atlas.GetNumberOfSegmentations() == cut
 assert not np.array_equal(uv, vtk_to_numpy(atlas.GetOutput().GetPointData().GetArray("LightMapTCoords")))
+
+# Sides, faces and surfaces that cannot be are told in a sentence.
+
+
+def changed(data, name, value):
+    """A copy with another first entry of an array, or without it."""
+    copy = vtkPolyData()
+    copy.DeepCopy(data)
+    if value is None:
+        copy.GetCellData().RemoveArray(name)
+    else:
+        copy.GetCellData().GetArray(name).SetComponent(0, 0, value)
+    return copy
+
+
+laid, solved = atlas.GetOutput(), solver.GetOutput(0)
+for mesh, solution, says in ((changed(laid, "Side", 2), solved, "The array Side has the entry 2"),
+                             (changed(laid, "InputFaceId", -1), solved, "face -1"),
+                             (changed(laid, "InputFaceId", 1e9), solved, "face 1000000000"),
+                             (changed(laid, "SurfaceId", None), solved, "surfaces"),
+                             (changed(laid, "SurfaceId", -1), solved, "surface below 0"),
+                             (laid, changed(solved, "Side", 255), "The array Side has the entry 255")):
+    wrong = lambert.vtkRadiosityLightMap()
+    wrong.SetInputData(0, mesh)
+    wrong.SetInputData(1, solution)
+    told = []
+
+    @calldata_type(VTK_STRING)
+    def tell(_caller, _event, text):
+        told.append(text)
+
+    wrong.AddObserver("ErrorEvent", tell)
+    wrong.Update()
+    assert told and says in told[0] and wrong.GetOutput().GetNumberOfBlocks() == 0, (says, told)
+
+# The solution of another order is refused each time, not drawn over charts that were kept.
+told = []
+atlas.AddObserver("ErrorEvent", lambda *_: told.append(1))
+atlas.SetSolutionConnection(unordered.GetOutputPort(0))
+atlas.SetTexelDensity(atlas.UNIFORM)
+for _ in range(2):
+    told.clear()
+    atlas.Modified()
+    atlas.Update()
+    assert told and atlas.GetOutput().GetNumberOfCells() == 0
 print("radiosity light map: passed")

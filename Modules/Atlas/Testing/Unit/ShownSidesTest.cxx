@@ -124,5 +124,15 @@ TEST(ShownSides, RefusesLightThatNoFaceShows) {
   EXPECT_THROW(OntoShownSides(lit.solution, {0}, {kFront}), Error);
 }
 
+TEST(ShownSides, RefusesSurfacesAndFacesThatCannotBe) {
+  LitOnBothSides lit(FlatGrid(2), 1, 0.5f);
+  EXPECT_THROW(OntoShownSides(lit.solution, {-1}, {kFront}), Error);
+  ClusterTree other = lit.tree;
+  other.surfaceRoots.clear();
+  EXPECT_THROW(FindSheets(lit.mesh, other, lit.solution), Error);
+  lit.mesh.surfaceId.clear();
+  EXPECT_THROW(ShowBothSides(lit.mesh, lit.tree, lit.solution), Error);
+}
+
 }  // namespace
 }  // namespace lambert

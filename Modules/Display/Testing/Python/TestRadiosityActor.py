@@ -4,7 +4,7 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  draws
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
-from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkTexture, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingCore import vtkProperty, vtkRenderer, vtkRenderWindow, vtkTexture, vtkWindowToImageFilter
 
 import lambert
 
@@ -170,6 +170,20 @@ for shading in ("Phong", "PBR"):
     added = seen[shading, True] - seen[shading, False]
     assert added[0] > 40 and abs(added[1:]).max() <= 4, (shading, added)
 assert np.abs((seen["Phong", True] - seen["Phong", False])[0] - 0.5 * 200) <= 4, seen
+
+# Another property on the way mirrors the same, and shows the same light map.
+for data, pages, around in ((even, [], environment), (mixed, [page([100, 0, 0]), page(dim[0])], None)):
+    actor = lambert.vtkRadiosityActor()
+    actor.SetInputData(data)
+    for light in pages:
+        actor.AddLightMapPage(light)
+    pictures = []
+    for _ in range(2):
+        actor.SetProperty(vtkProperty())
+        actor.GetProperty().SetSpecular(0.5)
+        actor.GetProperty().SetSpecularPower(200)
+        pictures.append(draw(actor, around))
+    assert np.array_equal(*pictures) and pictures[0].max() > 50
 
 # A light map is averaged where its texels are smaller than pixels, as far as its charts lie apart.
 checks = page([0, 0, 0], 128)

@@ -37,6 +37,10 @@ for name, default, other in (("Key", 0.18, 0.3), ("Exposure", 0.0, -1.5), ("Whit
 for curve in ("Photographic", "Linear", "Filmic"):
     getattr(tone, "SetCurveTo" + curve)()
     assert tone.GetCurve() == getattr(tone, curve.upper())
+told = []
+tone.AddObserver("ErrorEvent", lambda *_: told.append(1))
+tone.SetCurve(99)
+assert told and tone.GetCurve() == tone.FILMIC
 assert np.isnan(tone.GetExposureValue())
 tone.SetExposureValue(9)
 assert tone.GetExposureValue() == 9

@@ -190,6 +190,16 @@ for oracle, schedule in ((method.GEOMETRIC, 0), (method.BFA, 0), (method.VISIBIL
     other_mean, other_links = by_links_alone(oracle, schedule)
     assert abs(other_mean - mean) < 0.05 * mean and other_links != links, (oracle, schedule, mean, other_mean)
 
+# What is none of the choices is refused.
+told = []
+method.AddObserver("ErrorEvent", lambda *_: told.append(1))
+for name in ("Oracle", "Schedule", "Refinement"):
+    for choice in (-1, 99):
+        before = getattr(method, "Get" + name)()
+        told.clear()
+        getattr(method, "Set" + name)(choice)
+        assert told and getattr(method, "Get" + name)() == before, (name, choice)
+
 # A state that one filter saved another goes on from, to the same light; of another input it is an error.
 state = os.path.join(os.environ["LAMBERT_TEMPORARY_DIR"], "TestHierarchicalRadiosity.state")
 stopped = lambert.vtkHierarchicalRadiosity()

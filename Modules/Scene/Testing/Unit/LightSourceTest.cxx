@@ -203,6 +203,16 @@ TEST(LightSource, ABrightTexelIsASun) {
   }
 }
 
+TEST(LightSource, WhatIsFarIsKnownUnmade) {
+  for (int type = 0; IsLightType(type); ++type) {
+    Light light = MakeLight(LightType(type), Spectrum(1.f));
+    light.image = std::make_shared<EnvironmentImage>(1, 1, std::vector<Spectrum>{Spectrum(1.f)});
+    const bool isFar = MakeLightSource(light)->IsFar();
+    EXPECT_EQ(SelectLights({light}, true).size(), isFar ? 1u : 0u) << type;
+    EXPECT_EQ(SelectLights({light}, false).size(), isFar ? 0u : 1u) << type;
+  }
+}
+
 TEST(LightSource, WhatIsBlackIsLeftOut) {
   const LightSources sources(
       {MakeLight(LightType::Sky, Spectrum()), MakeLight(LightType::Point, Spectrum())});

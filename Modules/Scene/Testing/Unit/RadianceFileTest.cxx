@@ -47,6 +47,9 @@ TEST(RadianceFile, RunsOfPixels) {
   // Two digits: 1 + 256 times the same again.
   ExpectOnes(Decode(kHeader + "-Y 1 +X 258\n" + kOne + "\x01\x01\x01\x01" + "\x01\x01\x01\x01"),
              258);
+  // Rows of next to no bytes: 159 + 134 * 256 + 65536 times the same again.
+  const std::string row = kOne + "\x01\x01\x01\x9f" + "\x01\x01\x01\x86" + "\x01\x01\x01\x01";
+  ExpectOnes(Decode(kHeader + "-Y 3 +X 100000\n" + row + row + row), 300000);
 }
 
 TEST(RadianceFile, ExposuresAreTakenBack) {
