@@ -221,9 +221,13 @@ void RadiosityRun::Represent(const ProgressCallback& progress) {
   this->AddStage("light map", timer.Seconds());
 }
 
-RadiositySolution RadiosityRun::SolutionAsShown() const {
-  return this->shown_ ? OntoShownSides(this->solution_, this->shown_->inputFace, this->shown_->side)
-                      : this->solution_;
+const RadiositySolution& RadiosityRun::SolutionAsShown() {
+  if (!this->shown_) return this->solution_;
+  if (!this->solutionAsShown_) {
+    this->solutionAsShown_ =
+        OntoShownSides(this->solution_, this->shown_->inputFace, this->shown_->side);
+  }
+  return *this->solutionAsShown_;
 }
 
 void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
@@ -233,6 +237,7 @@ void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
     return;
   }
   this->shown_ = ShowBothSides(this->scene_.mesh, this->tree_, this->solution_);
+  this->solutionAsShown_.reset();
   if (this->shown_) {
     this->shownScene_ = this->scene_;
     this->shownScene_.mesh = this->shown_->mesh;
@@ -240,7 +245,7 @@ void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
   this->LayFlat(
       [&](double fraction, const char* stage) { return Report(progress, 0.7 * fraction, stage); });
   Timer timer;
-  const RadiositySolution solution = this->SolutionAsShown();
+  const RadiositySolution& solution = this->SolutionAsShown();
   this->atlas_ = WithTexelDensity(
       this->LaidScene().mesh, std::move(this->atlas_), solution, *this->options_.atlas,
       [&](double, const char* stage) { return Report(progress, 0.7, stage); });

@@ -115,7 +115,8 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
  private:
   /// Chooses how each surface shows its light, and draws the light map of those that it takes.
   void Represent(const ProgressCallback& progress);
-  RadiositySolution SolutionAsShown() const;
+  /// On the faces that show its sides, made once.
+  const RadiositySolution& SolutionAsShown();
   void SolveByMethod(const ProgressCallback& progress,
                      const std::function<void(const IterationRecord&)>& observer);
 
@@ -131,6 +132,7 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   std::optional<LitMeshSimplificationStatistics> simplification_;
   std::optional<ShownSides> shown_;
   Scene shownScene_;
+  std::optional<RadiositySolution> solutionAsShown_;
   RadiosityAtlas atlas_;
   std::optional<LightMap> lightMap_;
   std::optional<RepresentedScene> represented_;

@@ -264,25 +264,6 @@ LightMap MakeLightMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
   return map;
 }
 
-LightMap NextMipLevel(const LightMap& map) {
-  LightMap level;
-  level.pageSize = std::max(1, map.pageSize / 2);
-  const size_t size = size_t(map.pageSize), half = size_t(level.pageSize);
-  for (const std::vector<Spectrum>& page : map.pages) {
-    std::vector<Spectrum> texels(half * half);
-    for (size_t y = 0; y < half; ++y) {
-      for (size_t x = 0; x < half; ++x) {
-        const size_t right = std::min(size - 1, 2 * x + 1), above = std::min(size - 1, 2 * y + 1);
-        texels[y * half + x] = (page[2 * y * size + 2 * x] + page[2 * y * size + right] +
-                                page[above * size + 2 * x] + page[above * size + right]) *
-                               0.25f;
-      }
-    }
-    level.pages.push_back(std::move(texels));
-  }
-  return level;
-}
-
 Spectrum Lookup(const LightMap& map, int page, const Vec2f& textureCoords) {
   return Footprint(map.pageSize, textureCoords).Lookup(map.pages[size_t(page)]);
 }

@@ -42,10 +42,6 @@ LightMap MakeLightMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
                       const RadiositySolution& solution, const ProgressCallback& progress = {},
                       const std::vector<BorderPoint>& borders = {});
 
-/// The next level of its mip map: pages of half the size, rounded down, each texel the mean of what
-/// it covers.
-LightMap NextMipLevel(const LightMap& map);
-
 /// Bilinear lookup between the middles of texels; texture coordinates in [0, 1], v upward.
 Spectrum Lookup(const LightMap& map, int page, const Vec2f& textureCoords);
 

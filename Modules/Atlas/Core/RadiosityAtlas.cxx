@@ -32,9 +32,6 @@ constexpr double kLeastMargin = 0.5, kRounding = 1. / 256;
 /// Texels of a level that a lookup there takes in at most, to one side of its place.
 constexpr double kReach = 1.5;
 
-/// Texels that a chart may be long.
-double Room(const AtlasOptions& options) { return options.pageSize - 2 * PaddingOf(options) - 2; }
-
 /// Texels around a chart that it takes.
 double Margin(const AtlasOptions& options) {
   return std::max(kLeastMargin, double(PaddingOf(options))) + kRounding;
@@ -93,7 +90,7 @@ class Layout {
   }
 
   /// Texels a metre at which the longest chart still fits on a page.
-  double MostDensity() const { return longest_ > 0 ? Room(options_) / longest_ : 1; }
+  double MostDensity() const { return longest_ > 0 ? LongestChart(options_) / longest_ : 1; }
   double Area() const { return area_; }
 
   /// Throws Error where a chart is longer than a page, or all take too many pages.
@@ -174,8 +171,13 @@ void RequireAtlasOptions(const AtlasOptions& options) {
   if (options.mipLevels < 0 || options.mipLevels > 5) {
     throw Error("Charts are kept apart for 0 to 5 levels of mip maps.");
   }
-  if (options.padding < 0 || options.padding > 64 || 4 * PaddingOf(options) > options.pageSize) {
+  if (options.padding < 0 || options.padding > 64 || 4 * options.padding > options.pageSize) {
     throw Error("The padding of a chart is 0 to 64 texels, and a quarter of a page at most.");
+  }
+  if (4 * PaddingOf(options) > options.pageSize) {
+    throw Error(std::to_string(options.mipLevels) + " levels of mip maps need a padding of " +
+                std::to_string(PaddingOf(options)) +
+                " texels, over a quarter of a page; take larger pages or fewer levels.");
   }
 }
 
@@ -213,6 +215,10 @@ int PaddingOf(const AtlasOptions& options) {
   return std::max(options.padding, int(std::ceil(kReach * std::exp2(options.mipLevels))));
 }
 
+int LongestChart(const AtlasOptions& options) {
+  return options.pageSize - 2 * PaddingOf(options) - 2;
+}
+
 ChartOptions ChartOptionsOf(const ClusterTree& tree, const AtlasOptions& options) {
   RequireAtlasOptions(options);
   double area = 0;
@@ -221,7 +227,7 @@ ChartOptions ChartOptionsOf(const ClusterTree& tree, const AtlasOptions& options
   // None longer than a page, where the texels are as small as they will be about.
   ChartOptions chartOptions;
   chartOptions.stretch = options.stretch;
-  chartOptions.longest = Room(options) / FirstDensity(options, area);
+  chartOptions.longest = LongestChart(options) / FirstDensity(options, area);
   chartOptions.mostEmpty = kMostEmpty * area;
   return chartOptions;
 }

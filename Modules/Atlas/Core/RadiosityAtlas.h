@@ -47,6 +47,8 @@ RadiosityAtlas MakeRadiosityAtlas(const TriangleMesh& mesh, const ClusterTree& t
 
 /// Texels between a chart and the edge of what it takes: as asked for, and for the mip maps.
 int PaddingOf(const AtlasOptions& options);
+/// Texels that a chart may be long.
+int LongestChart(const AtlasOptions& options);
 
 ///@{ Its two steps, for those who repeat one of them. The charts that the options ask for, to be
 /// cut

@@ -122,7 +122,8 @@ RadiosityAtlas WithTexelDensity(const TriangleMesh& mesh, RadiosityAtlas atlas,
 
   // Charts of more texels are larger ones of even texels, none of them longer than a page.
   ChartSet set = atlas.set;
-  const double longest = kLongest * atlas.pageSize * atlas.texelSize;
+  const double longest =
+      std::min(kLongest * atlas.pageSize, double(LongestChart(options))) * atlas.texelSize;
   for (size_t i = 0; i < set.charts.size(); ++i) {
     const Chart& chart = set.charts[i];
     const double room = std::max(1., longest / std::max(1e-30, LengthOf(set, chart)));
