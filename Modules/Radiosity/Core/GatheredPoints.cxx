@@ -92,7 +92,7 @@ int32_t GatheredPoints::FindOrAdd(const Point& point) {
   int32_t& record = recordOfKey_[placeOf(point.key)];
   if (record < 0) {
     record = int32_t(records_.size());
-    records_.push_back({point.key, point.at, point.isProbe, {}, 0, {}, {}, 1, {}});
+    records_.push_back({point.key, point.at, point.isProbe, {}, 0, {}, {}, {}});
     deliveredCount_ += point.isProbe ? 0 : 1;
   }
   return record;
@@ -229,29 +229,30 @@ void GatheredPoints::Improve(double noise, int64_t* rays, const ProgressCallback
 
 // What is visible of the emitting faces, all neighbours heard.
 void GatheredPoints::ShareDirect(int32_t first, const SampleNeighbours& neighbours) {
-  std::vector<VisibilitySample> samples(records_.size());
-  ParallelForEach(int64_t(records_.size()), 1024, [&](int64_t i) {
-    const Record& record = records_[size_t(i)];
-    if (!(record.direct.unoccluded > 0)) return;
-    samples[size_t(i)] = {record.at.position,
-                          record.at.normal,
-                          record.direct.fromEmitters / record.direct.unoccluded,
-                          record.direct.squares,
-                          float(record.directRays),
-                          record.apart};
-  });
+  visibility_.resize(records_.size());
   const auto forNew = [&](const auto& call) {
     ParallelForEach(int64_t(records_.size()) - first, 256,
-                    [&](int64_t i) { call(int32_t(first + i)); });
+                    [&](int64_t i) { call(int32_t(first + i), &records_[size_t(first + i)]); });
   };
-  forNew([&](int32_t i) { records_[size_t(i)].apart = StandsApart(samples, neighbours, i); });
-  forNew([&](int32_t i) { samples[size_t(i)].apart = records_[size_t(i)].apart; });
-  forNew([&](int32_t i) {
-    const Spectrum visible = FilterVisibility(samples, neighbours, i);
-    Record& record = records_[size_t(i)];
+  forNew([&](int32_t i, const Record* record) {
+    const DirectSample& direct = record->direct;
+    if (!(direct.unoccluded > 0)) return;
+    visibility_[size_t(i)] = {direct.fromEmitters / direct.unoccluded, direct.squares,
+                              float(record->directRays)};
+  });
+
+  // All judge what their neighbours saw before any of it is told.
+  std::vector<float> apart(records_.size() - size_t(first));
+  forNew([&](int32_t i, const Record*) {
+    apart[size_t(i - first)] = StandsApart(visibility_, samples_, neighbours, i);
+  });
+  forNew(
+      [&](int32_t i, const Record*) { visibility_[size_t(i)].apart = apart[size_t(i - first)]; });
+  forNew([&](int32_t i, Record* record) {
+    const Spectrum visible = FilterVisibility(visibility_, samples_, neighbours, i);
     for (int band = 0; band < 3; ++band) {
-      const float fromLights = record.direct.irradiance[band] - record.direct.fromEmitters[band];
-      record.shared[band] = std::max(0.f, fromLights) + visible[band] * record.direct.unoccluded;
+      const float fromLights = record->direct.irradiance[band] - record->direct.fromEmitters[band];
+      record->shared[band] = std::max(0.f, fromLights) + visible[band] * record->direct.unoccluded;
     }
   });
 }

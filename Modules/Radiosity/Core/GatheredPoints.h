@@ -60,7 +60,6 @@ class GatheredPoints {
     int directRays = 0;
     BounceSum bounces;
     FilteredIrradiance bounced;
-    float apart = 1;  ///< in which part `direct` tells of this place alone, see StandsApart
     Spectrum shared;  ///< direct light, all neighbours heard, W/m2
   };
 
@@ -81,8 +80,9 @@ class GatheredPoints {
   const FinalGather& gather_;
   GatheredPointsOptions options_;
   const Spectrum brightest_;
-  std::vector<Record> records_;            ///< in the order in which they were asked for
-  std::vector<IrradianceSample> samples_;  ///< of the records, while light is gathered
+  std::vector<Record> records_;               ///< in the order in which they were asked for
+  std::vector<IrradianceSample> samples_;     ///< of the records, while light is gathered
+  std::vector<VisibilitySample> visibility_;  ///< by record, for neighbours to come
   /// The records by their keys: each from the place on that its key hashes to, in the first that
   /// was free; -1 for a free one. A power of two of them, at most half of them taken.
   std::vector<int32_t> recordOfKey_;

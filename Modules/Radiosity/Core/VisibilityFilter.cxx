@@ -24,25 +24,27 @@ struct Neighbourhood {
   std::array<const VisibilitySample*, kMost + 1> samples;
   int count = 0;
 
-  Neighbourhood(const std::vector<VisibilitySample>& all, const SampleNeighbours& neighbours,
+  Neighbourhood(const std::vector<VisibilitySample>& all,
+                const std::vector<IrradianceSample>& where, const SampleNeighbours& neighbours,
                 int32_t sample) {
-    const VisibilitySample& own = all[size_t(sample)];
+    const IrradianceSample& own = where[size_t(sample)];
     const int32_t* const begin = neighbours.begin(sample);
     const int32_t* const end = std::min(neighbours.end(sample), begin + kMost);
-    if (!(own.rays > 0) || begin == end) return;
-    const float square = LengthSquared(all[size_t(end[-1])].position - own.position);
+    if (!(all[size_t(sample)].rays > 0) || begin == end) return;
+    const float square = LengthSquared(where[size_t(end[-1])].position - own.position);
     if (!(square > 0)) return;
     Vec3f s, t;
     CoordinateSystem(own.normal, &s, &t);
-    const auto add = [&](const VisibilitySample& one) {
+    const auto add = [&](size_t index) {
+      const VisibilitySample& one = all[index];
       if (!(one.rays > 0)) return;
-      const Vec3f offset = (one.position - own.position) / std::sqrt(square);
+      const Vec3f offset = (where[index].position - own.position) / std::sqrt(square);
       const float near = std::max(0.f, 1 - LengthSquared(offset));
       samples[size_t(count)] = &one;
       places[size_t(count++)] = {Dot(offset, s), Dot(offset, t), one.rays * near * near};
     };
-    add(own);
-    for (const int32_t* other = begin; other != end; ++other) add(all[size_t(*other)]);
+    add(size_t(sample));
+    for (const int32_t* other = begin; other != end; ++other) add(size_t(*other));
   }
   bool Tells() const { return count > kLeast; }
   /// The variance of a ray, as all of them together tell.
@@ -60,9 +62,10 @@ struct Neighbourhood {
 
 }  // namespace
 
-float StandsApart(const std::vector<VisibilitySample>& samples, const SampleNeighbours& neighbours,
+float StandsApart(const std::vector<VisibilitySample>& samples,
+                  const std::vector<IrradianceSample>& places, const SampleNeighbours& neighbours,
                   int32_t sample) {
-  const Neighbourhood near(samples, neighbours, sample);
+  const Neighbourhood near(samples, places, neighbours, sample);
   if (!near.Tells()) return 1;
   std::array<float, kMost + 1> values;
   for (int i = 0; i < near.count; ++i) {
@@ -88,10 +91,11 @@ float StandsApart(const std::vector<VisibilitySample>& samples, const SampleNeig
 }
 
 Spectrum FilterVisibility(const std::vector<VisibilitySample>& samples,
+                          const std::vector<IrradianceSample>& places,
                           const SampleNeighbours& neighbours, int32_t sample) {
   const VisibilitySample& own = samples[size_t(sample)];
   if (own.apart >= 1) return own.visible;
-  Neighbourhood near(samples, neighbours, sample);
+  Neighbourhood near(samples, places, neighbours, sample);
   if (!near.Tells()) return own.visible;
 
   // The plane through what does not stand apart.

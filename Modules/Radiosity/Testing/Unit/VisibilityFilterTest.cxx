@@ -23,7 +23,7 @@ struct Floor {
         int clear = 0;
         for (int ray = 0; ray < rays; ++ray) clear += random.Uniform() < visible(position);
         const float part = float(clear) / float(rays);
-        samples.push_back({position, normal, Spectrum(part, part / 2, part), part, float(rays)});
+        samples.push_back({Spectrum(part, part / 2, part), part, float(rays)});
         places.push_back({position, normal, Spectrum(), 0, 1, 1});
       }
     }
@@ -33,12 +33,12 @@ struct Floor {
     const SampleNeighbours neighbours(places, 0);
     std::vector<float> apart;
     for (size_t i = 0; i < samples.size(); ++i) {
-      apart.push_back(StandsApart(samples, neighbours, int32_t(i)));
+      apart.push_back(StandsApart(samples, places, neighbours, int32_t(i)));
     }
     for (size_t i = 0; i < samples.size(); ++i) samples[i].apart = apart[i];
     std::vector<Spectrum> shared;
     for (size_t i = 0; i < samples.size(); ++i) {
-      shared.push_back(FilterVisibility(samples, neighbours, int32_t(i)));
+      shared.push_back(FilterVisibility(samples, places, neighbours, int32_t(i)));
       EXPECT_NEAR(shared.back().g, shared.back().r / 2, 1e-5);
       EXPECT_GE(shared.back().r, 0);
     }
@@ -50,7 +50,7 @@ struct Floor {
     const std::vector<Spectrum> shared = this->Shared();
     std::array<double, 2> squares = {0, 0};
     for (size_t i = 0; i < samples.size(); ++i) {
-      const double truth = double(visible(samples[i].position));
+      const double truth = double(visible(places[i].position));
       squares[0] += std::pow(double(samples[i].visible.r) - truth, 2) / double(samples.size());
       squares[1] += std::pow(double(shared[i].r) - truth, 2) / double(samples.size());
     }
