@@ -92,6 +92,7 @@ int32_t GatheredPoints::FindOrAdd(const Point& point) {
   int32_t& record = recordOfKey_[placeOf(point.key)];
   if (record < 0) {
     record = int32_t(records_.size());
+    if (records_.size() == records_.capacity()) records_.reserve(records_.size() * 5 / 4 + 1024);
     records_.push_back({point.key, point.at, point.isProbe, {}, 0, {}, {}, {}});
     deliveredCount_ += point.isProbe ? 0 : 1;
   }
