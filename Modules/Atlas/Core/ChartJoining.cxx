@@ -5,6 +5,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "Atlas/Core/ChartMesh.h"
 #include "Common/Core/DisjointSets.h"
 
 namespace lambert {
@@ -52,18 +53,14 @@ std::vector<ChartBorder> SmoothBorders(const TriangleMesh& mesh,
                                        const std::vector<int32_t>& neighbours,
                                        const std::vector<int32_t>& chartOfFace) {
   std::vector<ChartBorder> borders;
-  for (size_t corner = 0; corner < neighbours.size(); ++corner) {
-    if (neighbours[corner] <= int32_t(corner)) continue;
-    const size_t other = size_t(neighbours[corner]), face = corner / 3, beyond = other / 3;
-    const auto [a, b] = std::minmax(chartOfFace[face], chartOfFace[beyond]);
-    if (a == b) continue;
-    const auto &here = mesh.triangles[face], &there = mesh.triangles[beyond];
-    if (here[corner % 3] != there[(other + 1 - 3 * beyond) % 3]) continue;
-    if (here[(corner + 1 - 3 * face) % 3] != there[other % 3]) continue;
-    const Vec3d edge = Vec3d(mesh.Corner(int64_t(face), int((corner + 1 - 3 * face) % 3))) -
-                       Vec3d(mesh.Corner(int64_t(face), int(corner % 3)));
-    borders.push_back({a, b, Length(edge)});
-  }
+  ForEachSharedEdge(mesh, neighbours, [&](const SharedEdge& edge) {
+    const auto [a, b] = std::minmax(chartOfFace[edge.faces[0]], chartOfFace[edge.faces[1]]);
+    if (a == b) return;
+    const auto end = [&](size_t corner) {
+      return Vec3d(mesh.Corner(int64_t(edge.faces[0]), int(corner)));
+    };
+    borders.push_back({a, b, Length(end(edge.to[0]) - end(edge.from[0]))});
+  });
   Merge(&borders);
   return borders;
 }

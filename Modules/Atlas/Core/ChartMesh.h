@@ -22,10 +22,11 @@ struct SharedEdge {
   std::array<size_t, 2> faces, from, to;
 };
 
-/// Calls `visit(SharedEdge)` once for every edge within a surface whose faces share its points.
+/// Calls `visit(SharedEdge)` once for every edge within a surface whose faces share its points: no
+/// crease lies there. `neighbours` as FindNeighbours gives them.
 template <class Visit>
-void ForEachSharedEdge(const TriangleMesh& mesh, const Visit& visit) {
-  const std::vector<int32_t> neighbours = FindNeighbours(mesh);
+void ForEachSharedEdge(const TriangleMesh& mesh, const std::vector<int32_t>& neighbours,
+                       const Visit& visit) {
   for (size_t corner = 0; corner < neighbours.size(); ++corner) {
     if (neighbours[corner] <= int32_t(corner)) continue;
     const size_t other = size_t(neighbours[corner]);

@@ -31,7 +31,7 @@ std::vector<SeamPoint> FindSeams(const TriangleMesh& mesh, const RadiosityAtlas&
                                  const std::vector<BorderPoint>& borders) {
   // Along cuts.
   std::vector<SeamPoint> seams;
-  ForEachSharedEdge(mesh, [&](const SharedEdge& edge) {
+  ForEachSharedEdge(mesh, FindNeighbours(mesh), [&](const SharedEdge& edge) {
     const std::array<size_t, 2> charts = {size_t(chartOfFace[edge.faces[0]]),
                                           size_t(chartOfFace[edge.faces[1]])};
     std::array<Vec2f, 2> from, to;

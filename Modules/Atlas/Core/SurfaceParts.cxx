@@ -141,7 +141,7 @@ std::vector<BorderPoint> FindBorders(const TriangleMesh& mesh, const RadiositySo
   const std::vector<int32_t> chartOfFace = ChartOfFace(atlas.set);
   const LightOnFaces light(solution, mesh.FaceCount());
   std::vector<BorderPoint> borders;
-  ForEachSharedEdge(mesh, [&](const SharedEdge& edge) {
+  ForEachSharedEdge(mesh, FindNeighbours(mesh), [&](const SharedEdge& edge) {
     // Mapped on one side alone.
     const size_t in = mappedFace[edge.faces[0]] >= 0 ? 0 : 1, out = 1 - in;
     const int64_t face = mappedFace[edge.faces[in]];
