@@ -109,8 +109,7 @@ double GatheredMesh::Error(int64_t triangle, const LightScale& scale) const {
 }
 
 bool GatheredMesh::Receives(int64_t triangle) const {
-  const LeafTriangle& leaf = mesh_.Triangles()[size_t(triangle)];
-  return !hierarchy_->GetScene().mesh.Emits(leaf.face, Side(leaf.side));
+  return receives_[size_t(mesh_.Triangles()[size_t(triangle)].face)];
 }
 
 uint64_t GatheredMesh::Key(int64_t triangle) const {

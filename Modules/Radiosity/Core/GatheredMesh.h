@@ -11,6 +11,7 @@
 #include "Radiosity/Core/ElementHierarchy.h"
 #include "Radiosity/Core/GatheredPoints.h"
 #include "Radiosity/Core/RefinedMesh.h"
+#include "Reference/Core/SolutionError.h"
 
 namespace lambert {
 
@@ -24,6 +25,7 @@ class GatheredMesh {
         seed_(options.seed),
         gathered_(gather, options),
         skip_(skip),
+        receives_(ReceivingFaces(hierarchy->GetScene().mesh)),
         mesh_(hierarchy, litSides, RefinedMesh::Use::Gather),
         firstTriangles_(int64_t(mesh_.Triangles().size())) {}
 
@@ -103,6 +105,7 @@ class GatheredMesh {
   const uint64_t seed_;
   GatheredPoints gathered_;
   const float skip_;
+  const std::vector<bool> receives_;  ///< by face: its light counts in the error
   RefinedMesh mesh_;
   const int64_t firstTriangles_;
   std::vector<Spectrum> irradiance_;  ///< per point
