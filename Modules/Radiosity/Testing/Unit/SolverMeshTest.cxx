@@ -152,6 +152,27 @@ double Aspect(const std::vector<Vec3f>& points, const Vec3f& n) {
   return double(half.x) / std::max(double(half.y), 1e-30);
 }
 
+// A panel over a floor, and a lamp close over its back. What emits does not count in the error on
+// either side: its back is left as links cut it.
+TEST(SolverMesh, FacesThatEmitAreNotCut) {
+  const auto onPanel = [](float exitance) {
+    Scene scene;
+    testing::AddQuad(&scene.mesh, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, Spectrum(0.5f));
+    testing::AddQuad(&scene.mesh, {-0.5f, -0.5f, 1}, {0, 1, 0}, {1, 0, 0}, Spectrum(0.f),
+                     Spectrum(exitance), 1, 1);
+    testing::AddQuad(&scene.mesh, {0, 0, 1.02f}, {0, 0.02f, 0}, {0.02f, 0, 0}, Spectrum(0.f),
+                     Spectrum(1000.f), 2, 2);
+    testing::CompleteTables(&scene);
+    const SolvedScene solved = SolveScene(scene, 0.1);
+    int64_t count = 0;
+    for (const int64_t face : solved.solution.inputFaceId) {
+      count += solved.scene.mesh.materialId[size_t(face)] == 1;
+    }
+    return count;
+  };
+  EXPECT_GT(onPanel(0), 2 * onPanel(1));
+}
+
 // One right-angled sliver, 1 m by 1 mm, and half a millimetre over it a lamp as long: near light
 // asks for patches as small as the sliver is wide, everywhere along it. Elements are not split
 // below a thousandth of their surface, which is that width.
