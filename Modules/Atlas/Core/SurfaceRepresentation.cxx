@@ -109,20 +109,25 @@ std::vector<double> TexelsOfSurfaces(const RepresentedScene& scene) {
   return texels;
 }
 
-/// The triangles of a solution that lie on the brighter sides of its surfaces; and the surface of
-/// each, as `rows` number them.
+/// The triangles of a solution that lie on the brighter sides of its surfaces.
+std::vector<int64_t> TrianglesOnBrighterSides(const TriangleMesh& mesh,
+                                              const RadiositySolution& solution) {
+  const std::vector<uint8_t> sides = BrighterSidesOfSurfaces(mesh, solution);
+  std::vector<int64_t> triangles;
+  for (size_t t = 0; t < solution.inputFaceId.size(); ++t) {
+    if (solution.side[t] == sides[SurfaceOf(mesh, solution, t)]) triangles.push_back(int64_t(t));
+  }
+  return triangles;
+}
+
+/// Those triangles as a solution; and the surface of each, as `rows` number them.
 RadiositySolution OnBrighterSides(const SurfaceSubset& subset, const std::vector<size_t>& rows,
                                   std::vector<size_t>* rowOfTriangle) {
-  const RadiositySolution& all = subset.solution;
-  const std::vector<uint8_t> sides = BrighterSidesOfSurfaces(subset.mesh, all);
-  std::vector<int64_t> triangles;
-  for (size_t t = 0; t < all.inputFaceId.size(); ++t) {
-    const size_t surface = SurfaceOf(subset.mesh, all, t);
-    if (all.side[t] != sides[surface]) continue;
-    triangles.push_back(int64_t(t));
-    rowOfTriangle->push_back(rows[surface]);
+  const std::vector<int64_t> triangles = TrianglesOnBrighterSides(subset.mesh, subset.solution);
+  for (const int64_t t : triangles) {
+    rowOfTriangle->push_back(rows[SurfaceOf(subset.mesh, subset.solution, size_t(t))]);
   }
-  return TakeTriangles(all, triangles);
+  return TakeTriangles(subset.solution, triangles);
 }
 
 template <class T>
@@ -212,18 +217,6 @@ RepresentedScene RepresentAsTheyAre(const TriangleMesh& mesh, const ClusterTree&
   return scene;
 }
 
-/// The triangles of a solution that lie on the brighter sides of whole surfaces: parts of one show
-/// the same side.
-RadiositySolution OnBrighterSidesOfSurfaces(const TriangleMesh& mesh,
-                                            const RadiositySolution& solution) {
-  const std::vector<uint8_t> sides = BrighterSidesOfSurfaces(mesh, solution);
-  std::vector<int64_t> triangles;
-  for (size_t t = 0; t < solution.inputFaceId.size(); ++t) {
-    if (solution.side[t] == sides[SurfaceOf(mesh, solution, t)]) triangles.push_back(int64_t(t));
-  }
-  return TakeTriangles(solution, triangles);
-}
-
 /// Cuts surfaces where the options ask for it.
 RepresentedScene RepresentParts(const TriangleMesh& mesh, const ClusterTree& tree,
                                 const RadiositySolution& solution,
@@ -241,7 +234,8 @@ RepresentedScene RepresentParts(const TriangleMesh& mesh, const ClusterTree& tre
   for (size_t s = 0; s < mayBeCut.size(); ++s) {
     mayBeCut[s] = wantedOf(s) == Representation::Automatic;
   }
-  const RadiositySolution shown = OnBrighterSidesOfSurfaces(mesh, solution);
+  // Parts of a surface show the same side.
+  const RadiositySolution shown = TakeTriangles(solution, TrianglesOnBrighterSides(mesh, solution));
   const SurfaceParts parts = CutWhereRefined(mesh, tree, shown, mayBeCut);
 
   // Parts as surfaces.

@@ -15,8 +15,9 @@ namespace lambert {
 namespace {
 
 constexpr int64_t kMostTexels = int64_t(1) << 28;
-/// Rows as wide as this may be stored band by band.
+/// Stored band by band a byte holds fewer texels than this: 127 take eight.
 constexpr size_t kMostTexelsOfByte = 64;
+/// Rows as wide as this may be stored band by band.
 constexpr int kLeastBandWidth = 8, kMostBandWidth = 0x7fff;
 
 using Rgbe = std::array<uint8_t, 4>;
