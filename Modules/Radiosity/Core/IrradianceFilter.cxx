@@ -17,6 +17,10 @@ constexpr float kAlike = 0.9f, kFlat = 0.25f;
 /// What is thought of the scatter before it is known: that of so many rays, each as far off as the
 /// mean or the usual light is large.
 constexpr float kPriorRays = 2;
+/// Where no more than so many lie within reach, so many of the nearest are asked. They count up to
+/// this part of the distance of the farthest.
+constexpr int kNearest = 8;
+constexpr float kExtent = 1.1f;
 
 }  // namespace
 
@@ -46,55 +50,111 @@ SampleNeighbours::SampleNeighbours(const std::vector<IrradianceSample>& samples,
   });
 }
 
-FilteredIrradiance FilterIrradiance(const std::vector<IrradianceSample>& samples,
-                                    const SampleNeighbours& neighbours, int32_t sample,
-                                    float usual) {
-  // Who tells of this place.
-  const IrradianceSample& own = samples[size_t(sample)];
+namespace {
+
+/// Those that tell of a place, itself first, in its plane.
+struct Telling {
   std::array<PlanePoint, SampleNeighbours::kMost + 1> places;
-  std::array<const IrradianceSample*, SampleNeighbours::kMost + 1> telling;
-  int count = 0;
-  telling[0] = &own;
-  places[size_t(count++)] = {0, 0, own.rays};
+  std::array<const IrradianceSample*, SampleNeighbours::kMost + 1> samples;
+  int count = 1;
   Vec3f s, t;
-  CoordinateSystem(own.normal, &s, &t);
-  float variance = own.variance * own.rays, rays = own.rays;
-  for (const int32_t* i = neighbours.begin(sample); i != neighbours.end(sample); ++i) {
-    const IrradianceSample& other = samples[size_t(*i)];
-    variance += other.variance * other.rays, rays += other.rays;
-    const Vec3f offset = other.position - own.position;
-    const float reach = std::min(own.reach, other.reach);
+
+  explicit Telling(const IrradianceSample& own) {
+    places[0] = {0, 0, own.rays};
+    samples[0] = &own;
+    CoordinateSystem(own.normal, &s, &t);
+  }
+  /// If it lies within `reach`, the less the farther; in units of length `unit`.
+  void Add(const IrradianceSample& other, float reach, float unit) {
+    const Vec3f offset = other.position - samples[0]->position;
     const float part = LengthSquared(offset) / (reach * reach);
-    if (!(part < 1)) continue;
-    telling[size_t(count)] = &other;
-    places[size_t(count++)] = {Dot(offset, s) / own.reach, Dot(offset, t) / own.reach,
+    if (!(part < 1)) return;
+    samples[size_t(count)] = &other;
+    places[size_t(count++)] = {Dot(offset, s) / unit, Dot(offset, t) / unit,
                                other.rays * (1 - part) * (1 - part)};
   }
+};
 
-  // The plane through them. How far rays scatter all neighbours tell, within reach or not: if each
-  // asked itself alone, those that happened to find light would cast more rays than those that did
-  // not, and light would be lost.
-  const PlaneFit fit(places.data(), count);
-  FilteredIrradiance light;
-  Spectrum least = own.irradiance, most = own.irradiance;
+/// A plane's value at the place, and the sum of the squares of the parts that rays have in it.
+struct ValueOfPlane {
+  Spectrum irradiance;
   float squareOfWeights = 0;
-  for (int i = 0; i < count; ++i) {
-    const IrradianceSample& sampleOfIt = *telling[size_t(i)];
-    const float weight = fit.WeightAtMiddle(places[size_t(i)]);
-    light.irradiance += sampleOfIt.irradiance * weight;
-    squareOfWeights += weight * weight / sampleOfIt.rays;
+};
+
+ValueOfPlane PlaneThrough(const Telling& telling) {
+  const PlaneFit fit(telling.places.data(), telling.count);
+  ValueOfPlane value;
+  Spectrum least = telling.samples[0]->irradiance, most = least;
+  for (int i = 0; i < telling.count; ++i) {
+    const IrradianceSample& sample = *telling.samples[size_t(i)];
+    const float weight = fit.WeightAtMiddle(telling.places[size_t(i)]);
+    value.irradiance += sample.irradiance * weight;
+    value.squareOfWeights += weight * weight / sample.rays;
     for (int band = 0; band < 3; ++band) {
-      least[band] = std::min(least[band], sampleOfIt.irradiance[band]);
-      most[band] = std::max(most[band], sampleOfIt.irradiance[band]);
+      least[band] = std::min(least[band], sample.irradiance[band]);
+      most[band] = std::max(most[band], sample.irradiance[band]);
     }
   }
   for (int band = 0; band < 3; ++band) {
-    light.irradiance[band] = std::min(most[band], std::max(least[band], light.irradiance[band]));
+    value.irradiance[band] = std::min(most[band], std::max(least[band], value.irradiance[band]));
   }
-  const Spectrum& e = light.irradiance;
-  const float prior = std::max(usual * usual, e.r * e.r + e.g * e.g + e.b * e.b);
-  light.variance = (variance + kPriorRays * prior) / (rays + kPriorRays) * squareOfWeights;
-  return light;
+  return value;
+}
+
+/// By how much the first of them does not belong to the others, [0, 1], when a ray has the given
+/// variance.
+float FirstStandsApart(const Telling& telling, double variance) {
+  const PlaneFit fit(telling.places.data(), telling.count);
+  std::array<float, SampleNeighbours::kMost + 1> values, rays;
+  std::array<double, SampleNeighbours::kMost + 1> squares{};
+  for (int band = 0; band < 3; ++band) {
+    for (int i = 0; i < telling.count; ++i) {
+      values[size_t(i)] = telling.samples[size_t(i)]->irradiance[band];
+      rays[size_t(i)] = telling.samples[size_t(i)]->rays;
+    }
+    AddSquaresOff(fit, telling.places.data(), values.data(), telling.count, squares.data());
+  }
+  return StandsApart(telling.places.data(), squares.data(), rays.data(), telling.count, variance);
+}
+
+}  // namespace
+
+FilteredIrradiance FilterIrradiance(const std::vector<IrradianceSample>& samples,
+                                    const SampleNeighbours& neighbours, int32_t sample,
+                                    float usual) {
+  // Who tells of this place: those within reach, and the nearest. How far rays scatter all
+  // neighbours tell: if each asked itself alone, those that happened to find light would cast more
+  // rays than those that did not, and light would be lost.
+  const IrradianceSample& own = samples[size_t(sample)];
+  const int32_t* const begin = neighbours.begin(sample);
+  const int32_t* const end = neighbours.end(sample);
+  const int32_t* const endOfNearest = std::min(end, begin + kNearest);
+  Telling within(own), nearest(own);
+  const float extent =
+      begin == end ? 1
+                   : kExtent * Length(samples[size_t(endOfNearest[-1])].position - own.position);
+  float variance = own.variance * own.rays, rays = own.rays;
+  for (const int32_t* i = begin; i != end; ++i) {
+    const IrradianceSample& other = samples[size_t(*i)];
+    variance += other.variance * other.rays, rays += other.rays;
+    within.Add(other, std::min(own.reach, other.reach), own.reach);
+    if (i < endOfNearest) nearest.Add(other, extent, extent);
+  }
+  const auto varianceOfRay = [&](const Spectrum& e) {
+    const float prior = std::max(usual * usual, e.r * e.r + e.g * e.g + e.b * e.b);
+    return (variance + kPriorRays * prior) / (rays + kPriorRays);
+  };
+
+  // What they found. In corners hardly any lies within reach: there the nearest tell as far as
+  // they agree, by what is known of the scatter, not what is thought of it.
+  ValueOfPlane value = PlaneThrough(within);
+  if (within.count <= kNearest && nearest.count > kNearest) {
+    const float apart = FirstStandsApart(nearest, double(variance / rays));
+    const ValueOfPlane shared = PlaneThrough(nearest);
+    value.irradiance = value.irradiance * apart + shared.irradiance * (1 - apart);
+    value.squareOfWeights = value.squareOfWeights * apart + shared.squareOfWeights * (1 - apart);
+  }
+  return {value.irradiance, varianceOfRay(value.irradiance) * value.squareOfWeights};
 }
 
 }  // namespace lambert

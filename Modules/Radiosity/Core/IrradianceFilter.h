@@ -46,9 +46,10 @@ class SampleNeighbours {
 };
 
 /// Irradiance at a sample: a plane fitted to what it and its neighbours found, as far as they lie
-/// within its reach and it within theirs, each weighed by its rays and its nearness. Where few
-/// tell, rays are thought to scatter by `usual` (W/m2, norm over bands), what light usually is,
-/// even if they all found alike.
+/// within its reach and it within theirs, each weighed by its rays and its nearness. Where hardly
+/// any does, as in corners, the nearest tell too, as far as they and it agree. Where few tell, rays
+/// are thought to scatter by `usual` (W/m2, norm over bands), what light usually is, even if they
+/// all found alike.
 FilteredIrradiance FilterIrradiance(const std::vector<IrradianceSample>& samples,
                                     const SampleNeighbours& neighbours, int32_t sample,
                                     float usual = 0);

@@ -1,6 +1,8 @@
-// A plane fitted by least squares to values at places around a middle.
+// A plane fitted by least squares to values at places around a middle, and whether the middle
+// belongs to it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 namespace lambert {
@@ -62,5 +64,31 @@ class PlaneFit {
 
   std::array<std::array<float, 3>, 3> inverse_{};
 };
+
+/// Adds to the square at each place that of the distance of its value from the plane through all.
+inline void AddSquaresOff(const PlaneFit& fit, const PlanePoint* points, const float* values,
+                          int count, double* squares) {
+  const std::array<float, 3> plane = fit.Through(points, values, count);
+  for (int i = 0; i < count; ++i) {
+    const PlanePoint& p = points[i];
+    const double off = double(values[i] - plane[0] - plane[1] * p.u - plane[2] * p.v);
+    squares[i] += off * off;
+  }
+}
+
+/// By how much the first place does not belong to the others, [0, 1], when values at them are so
+/// far off the plane, squared, and are means of so many rays, each of the given variance: by how
+/// much all are farther off than that lets them be, or the first alone is by more than two standard
+/// deviations.
+inline float StandsApart(const PlanePoint* points, const double* squares, const float* rays,
+                         int count, double variance) {
+  double off = 0, weights = 0;
+  for (int i = 0; i < count; ++i) {
+    off += double(points[i].weight) * squares[i];
+    weights += double(points[i].weight / rays[i]);
+  }
+  const double most = std::max(off / weights, squares[0] * double(rays[0]) / 4);
+  return most > variance ? float(std::min(1.0, most / variance - 1)) : 0;
+}
 
 }  // namespace lambert

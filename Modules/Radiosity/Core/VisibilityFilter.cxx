@@ -12,9 +12,6 @@ namespace {
 
 /// Neighbours that are asked, and how many have to tell: fewer may all be mistaken.
 constexpr int kMost = 16, kLeast = 8;
-/// The place itself may be so many standard deviations off the plane and still be taken for
-/// scatter.
-constexpr double kOff = 2;
 /// What is thought of the variance of a ray before it is known counts as that of one ray.
 constexpr double kPriorVariance = 0.25;
 
@@ -67,27 +64,15 @@ float StandsApart(const std::vector<VisibilitySample>& samples,
                   int32_t sample) {
   const Neighbourhood near(samples, places, neighbours, sample);
   if (!near.Tells()) return 1;
-  std::array<float, kMost + 1> values;
+  std::array<float, kMost + 1> values, rays;
   for (int i = 0; i < near.count; ++i) {
     values[size_t(i)] = near.samples[size_t(i)]->visible.Mean();
+    rays[size_t(i)] = near.samples[size_t(i)]->rays;
   }
   const PlaneFit fit(near.places.data(), near.count);
-  const auto plane = fit.Through(near.places.data(), values.data(), near.count);
-
-  // How far they are off it, in parts of what rays scatter: all, and this one.
-  const double variance = near.Variance();
-  double off = 0, weights = 0, ownOff = 0;
-  for (int i = 0; i < near.count; ++i) {
-    const PlanePoint& p = near.places[size_t(i)];
-    const float rays = near.samples[size_t(i)]->rays;
-    const double difference =
-        double(values[size_t(i)] - plane[0] - plane[1] * p.u - plane[2] * p.v);
-    const double parts = difference * difference * double(rays) / variance;
-    off += double(p.weight / rays) * parts, weights += double(p.weight / rays);
-    if (i == 0) ownOff = parts;
-  }
-  const double most = std::max(off / weights, ownOff / (kOff * kOff));
-  return float(std::min(1.0, std::max(0.0, most - 1)));
+  std::array<double, kMost + 1> squares{};
+  AddSquaresOff(fit, near.places.data(), values.data(), near.count, squares.data());
+  return StandsApart(near.places.data(), squares.data(), rays.data(), near.count, near.Variance());
 }
 
 Spectrum FilterVisibility(const std::vector<VisibilitySample>& samples,

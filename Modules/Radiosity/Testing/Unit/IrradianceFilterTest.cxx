@@ -75,6 +75,40 @@ TEST(IrradianceFilter, MixesNothingBeyondItsReach) {
   }
 }
 
+// In a corner, where samples reach nowhere, the nearest smooth noise as far as they agree.
+TEST(IrradianceFilter, AsksTheNearestWhereNoneLiesWithinReach) {
+  const std::vector<IrradianceSample> samples = Floor(
+      30, [](float, float) { return 1.f; }, 0.5f, 1e-6f);
+  const SampleNeighbours neighbours(samples, 0);
+  double squares = 0;
+  for (int32_t i = 0; i < int32_t(samples.size()); ++i) {
+    const FilteredIrradiance light = FilterIrradiance(samples, neighbours, i);
+    squares += std::pow(double(light.irradiance.g) - 1, 2) / double(samples.size());
+  }
+  // A sample alone is off by 0.29; nine that all were heard by a third of that.
+  EXPECT_LT(std::sqrt(squares), 0.29 / 1.7);
+}
+
+// They do not where light changes by more than rays scatter: behind a wall it stays dark.
+TEST(IrradianceFilter, HearsNoneOfTheNearestAcrossAStep) {
+  const auto rooms = [](float x, float) { return x < 0.095f ? 1.f : 0.f; };
+  std::vector<IrradianceSample> samples = Floor(20, rooms, 0, 1e-6f);
+  Random random(2);
+  for (IrradianceSample& s : samples) {
+    s.irradiance *= 1 + 0.2f * (2 * random.Uniform() - 1);
+    s.variance = 3 * 4 * 0.04f / 3;
+  }
+  const SampleNeighbours neighbours(samples, 0);
+  for (int32_t i = 0; i < int32_t(samples.size()); ++i) {
+    const float found = FilterIrradiance(samples, neighbours, i).irradiance.g;
+    if (samples[size_t(i)].position.x < 0.095f) {
+      EXPECT_GT(found, 0.7f);
+    } else {
+      EXPECT_LT(found, 0.02f);
+    }
+  }
+}
+
 // A wall's samples tell nothing of the floor, nor do those of its other side.
 TEST(IrradianceFilter, AsksThoseThatLookTheSameWay) {
   std::vector<IrradianceSample> samples = Floor(
