@@ -29,6 +29,9 @@ constexpr int kMostDirectRays = 64;
 constexpr int kLeastShadowNeighbours = 8, kShadowNeighbours = 12;
 /// A point's scatter counts in this part by the area that it stands for, else as one of all points.
 constexpr double kByArea = 0.75;
+/// Bounced light that scatters by more than this part of the light at a point, which counts as at
+/// least a part of the mean, is seen as a blotch, however little it adds to the error.
+constexpr double kBlotch = 0.16, kDimmest = 0.5;
 /// Rounds of more rays; in one a point gets up to this many times the rays it had.
 constexpr int kRounds = 3;
 constexpr int kMostGrowth = 16;
@@ -277,9 +280,9 @@ void GatheredPoints::Share(int32_t first, const SampleNeighbours& neighbours) {
   });
 }
 
-// What each new point adds to the squared relative error: by its area, and as one of all points.
-// Probes add nothing.
-std::vector<double> GatheredPoints::Noise(int32_t first) const {
+// What each new point adds to the squared relative error, by its area and as one of all points, and
+// by how much its rays have to grow until its scatter is no blotch. Probes need nothing.
+GatheredPoints::Scatter GatheredPoints::ScatterOfNew(int32_t first) const {
   const auto lightOf = [](const Record& r) {
     return std::sqrt(SquaredNorm(r.direct.irradiance + r.bounced.irradiance));
   };
@@ -291,41 +294,47 @@ std::vector<double> GatheredPoints::Noise(int32_t first) const {
     return area > 0 ? kByArea * double(r.at.area) / area + (1 - kByArea) * each : each;
   };
   for (const Record& r : records_) mean += share(r) * lightOf(r);
-  std::vector<double> noise(records_.size(), 0);
-  if (!(mean > 0)) return noise;
+  Scatter scatter;
+  scatter.noise.resize(records_.size(), 0);
+  scatter.growth.resize(records_.size(), 1);
+  if (!(mean > 0)) return scatter;
   for (const Record& r : records_) {
     const double light = std::min(lightOf(r), kBlazing * mean);
     meanSquare += share(r) * light * light;
   }
   for (size_t i = size_t(first); i < records_.size(); ++i) {
     const Record& r = records_[i];
-    noise[i] = share(r) * double(r.bounced.variance) * ErrorWeight(lightOf(r), mean, meanSquare);
+    if (r.isProbe) continue;
+    const double variance = double(r.bounced.variance), light = lightOf(r);
+    scatter.noise[i] = share(r) * variance * ErrorWeight(light, mean, meanSquare);
+    const double unseen = kBlotch * std::max(light, kDimmest * mean);
+    scatter.growth[i] = std::min(double(kMostGrowth), std::max(1.0, variance / (unseen * unseen)));
   }
-  return noise;
+  return scatter;
 }
 
-// Rays in proportion to the root of what they may gain, until what is left is what may be left.
+// Rays in proportion to the root of what they may gain, until what is left is what may be left; and
+// where it would be seen all the same, more.
 void GatheredPoints::GatherWhereItScatters(int32_t first, const SampleNeighbours& neighbours,
                                            int64_t* rays, const ProgressCallback& progress) {
   const double allowed = options_.noise * options_.noise;
   for (int round = 0; round < kRounds; ++round) {
     this->Share(first, neighbours);
-    const std::vector<double> noise = this->Noise(first);
+    const Scatter scatter = this->ScatterOfNew(first);
     double total = 0;
-    for (const double n : noise) total += n;
-    if (total <= allowed) return;
+    for (const double n : scatter.noise) total += n;
 
     // By which factor the rays of a point with one unit of noise grow; one that has no more than
     // its share of what may be left has enough, however much there is elsewhere.
     double low = std::sqrt(allowed / double(std::max<int64_t>(1, deliveredCount_))), high = low;
-    for (const double n : noise) high = std::max(high, std::sqrt(n));
+    for (const double n : scatter.noise) high = std::max(high, std::sqrt(n));
     const auto growth = [&](double n, double unit) {
       return std::min(double(kMostGrowth), std::max(1.0, std::sqrt(n) / unit));
     };
-    for (int step = 0; step < 30; ++step) {
+    for (int step = 0; step < 30 && total > allowed; ++step) {
       const double unit = (low + high) / 2;
       double left = 0;
-      for (const double n : noise) left += n / growth(n, unit);
+      for (const double n : scatter.noise) left += n / growth(n, unit);
       (left > allowed ? high : low) = unit;
     }
 
@@ -333,7 +342,9 @@ void GatheredPoints::GatherWhereItScatters(int32_t first, const SampleNeighbours
     std::vector<double> wanted(records_.size());
     for (size_t i = size_t(first); i < records_.size(); ++i) {
       const int had = records_[i].bounces.rays;
-      wanted[i] = had * (std::min(growth(noise[i], low), double(options_.mostRays) / had) - 1);
+      const double byError = total > allowed ? growth(scatter.noise[i], low) : 1;
+      const double grown = std::max(byError, scatter.growth[i]);
+      wanted[i] = had * (std::min(grown, double(options_.mostRays) / had) - 1);
     }
     bool isAny = false;
     for (int count = options_.firstRays; count < options_.mostRays; count *= 2) {

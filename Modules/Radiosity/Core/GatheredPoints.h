@@ -73,7 +73,11 @@ class GatheredPoints {
   void Share(int32_t first, const SampleNeighbours& neighbours);
   void GatherWhereItScatters(int32_t first, const SampleNeighbours& neighbours, int64_t* rays,
                              const ProgressCallback& progress);
-  std::vector<double> Noise(int32_t first) const;
+  /// By record.
+  struct Scatter {
+    std::vector<double> noise, growth;
+  };
+  Scatter ScatterOfNew(int32_t first) const;
   IrradianceSample SampleOf(const Record& record) const;
   void SampleAll();
 
