@@ -52,10 +52,13 @@ class LAMBERTCOMMON_EXPORT vtkRadiosityArrays : public vtkObject {
   static const char* MaterialReflectance() { return "Material.Reflectance"; }  ///< 3 float
   static const char* MaterialEmittance() { return "Material.Emittance"; }      ///< 3 float, W/m2
   static const char* MaterialTwoSidedEmitter() { return "Material.TwoSidedEmitter"; }  ///< 0 or 1
-  static const char* PartName() { return "Part.Name"; }                                ///< string
+  /// Int, of a piece of a scene: which rows of the scene's table its own are
+  static const char* MaterialRow() { return "Material.Row"; }
+  static const char* PartName() { return "Part.Name"; }      ///< string
   static const char* PartSource() { return "Part.Source"; }  ///< string, file or actor
   static const char* PartMeshId() { return "Part.MeshId"; }  ///< int, the same for instances
   static const char* PartObjectToWorld() { return "Part.ObjectToWorld"; }  ///< 16 double, row-major
+  static const char* PartRow() { return "Part.Row"; }                      ///< int, as Material.Row
   static const char* LightName() { return "Light.Name"; }                  ///< string
   static const char* LightType() { return "Light.Type"; }  ///< int; the names stand in DataModel.md
   static const char* LightPosition() { return "Light.Position"; }    ///< 3 float, m

@@ -2,11 +2,11 @@
  * @class vtkRadiositySceneReader
  * @brief Reads a lit scene from files, cleans it up and delivers it as one vtkPolyData.
  *
- * OBJ+MTL, glTF/GLB, PLY, STL and what else Assimp knows, and VTP. The output is triangles in world
- * space, in metres, with the cell and point arrays of vtkRadiosityArrays; materials, parts, lights
- * and the camera lie in its field data. What was read and what was changed is told by
- * GetReportJson(). An unreadable file and a scene without a triangle that has area end in one error
- * message.
+ * OBJ+MTL, glTF/GLB, PLY, STL and what else Assimp knows, VTP, and VTPC, whose pieces make one
+ * scene. The output is triangles in world space, in metres, with the cell and point arrays of
+ * vtkRadiosityArrays; materials, parts, lights and the camera lie in its field data. What was read
+ * and what was changed is told by GetReportJson(). An unreadable file and a scene without a
+ * triangle that has area end in one error message.
  */
 #ifndef vtkRadiositySceneReader_h
 #define vtkRadiositySceneReader_h

@@ -16,6 +16,7 @@
 #include "vtkValueArrays.h"
 
 #include <algorithm>
+#include <map>
 
 namespace lambert {
 namespace {
@@ -59,6 +60,30 @@ void CoverIds(const std::vector<int32_t>& ids, const char* name, std::vector<Row
   table->resize(std::max({table->size(), rows, size_t{1}}));
 }
 
+/// Numbers rows of the scene's table as they stand in that of a piece, whose `rowArray` names them.
+/// Throws Error where a row is not there.
+void NumberAsInPiece(vtkFieldData* fields, const char* rowArray, const char* idArray, size_t rows,
+                     std::vector<int32_t>* ids) {
+  vtkDataArray* array = fields->GetArray(rowArray);
+  if (!array) {
+    return;
+  }
+  lambert::RequireArray(fields, rowArray, 1, rows, "piece", "a piece of a VTPC file as it is");
+  const std::vector<int32_t> ofScene = NumbersFromArray<int32_t>(array);
+  std::map<int32_t, int32_t> ofPiece;
+  for (size_t row = 0; row < ofScene.size(); ++row) {
+    ofPiece.emplace(ofScene[row], static_cast<int32_t>(row));
+  }
+  for (int32_t& id : *ids) {
+    const auto row = ofPiece.find(id);
+    if (row == ofPiece.end()) {
+      throw Error(std::string("The array ") + idArray + " has the entry " + std::to_string(id) +
+                  ", which no row of " + rowArray + " has; take the piece as it was written.");
+    }
+    id = row->second;
+  }
+}
+
 vtkDataArray* RequireArray(vtkFieldData* data, const char* name, int components, size_t count) {
   return lambert::RequireArray(data, name, components, count, "solution",
                                "output port 0 of a radiosity method");
@@ -71,7 +96,12 @@ Scene SceneAsStoredInPolyData(vtkPolyData* input) {
     return scene;
   }
   scene.mesh = TriangleMeshFromPolyData(IsAllTriangles(input) ? input : Triangulate(input).Get());
-  ReadSceneTables(input->GetFieldData(), &scene);
+  vtkFieldData* fields = input->GetFieldData();
+  ReadSceneTables(fields, &scene);
+  NumberAsInPiece(fields, Names::MaterialRow(), Names::MaterialId(), scene.materials.size(),
+                  &scene.mesh.materialId);
+  NumberAsInPiece(fields, Names::PartRow(), Names::PartId(), scene.parts.size(),
+                  &scene.mesh.partId);
   CoverIds(scene.mesh.materialId, Names::MaterialId(), &scene.materials);
   CoverIds(scene.mesh.partId, Names::PartId(), &scene.parts);
   return scene;

@@ -15,11 +15,12 @@ namespace lambert {
 /// The scene that `input` carries, its geometry as it stands. Tables that it lacks get default
 /// rows, as many as its faces name, at least one (lights: none). Polygons and strips are cut into
 /// triangles, each with the SourceCellId of the cell that it came from; vertices and lines are left
-/// out. A mesh without point normals gets them, within `featureAngle` degrees: its own points keep
-/// their numbers, copies where it is creased follow them. Throws Error for arrays of the wrong
-/// length or number of components and for values out of range. Images of environments are left to
-/// whoever asks for their light (ReadEnvironmentImages). `storedTriangles`, if given, gets the
-/// triangles with the points of `input`.
+/// out. The ids of a piece (ScenePieces) become rows of its own tables. A mesh without point
+/// normals gets them, within `featureAngle` degrees: its own points keep their numbers, copies
+/// where it is creased follow them. Throws Error for arrays of the wrong length or number of
+/// components and for values out of range. Images of environments are left to whoever asks for
+/// their light (ReadEnvironmentImages). `storedTriangles`, if given, gets the triangles with the
+/// points of `input`.
 LAMBERTSCENE_EXPORT Scene
 SceneFromPolyData(vtkPolyData* input, double featureAngle = 30,
                   std::vector<std::array<int32_t, 3>>* storedTriangles = nullptr);

@@ -2,122 +2,20 @@
 
 #include "Common/Core/Error.h"
 #include "Scene/Core/EnvironmentImage.h"
+#include "Scene/Core/PieceJoining.h"
 #include "Scene/Core/SceneLimits.h"
 #include "vtkCellData.h"
-#include "vtkCommand.h"
-#include "vtkExecutive.h"
-#include "vtkNew.h"
-#include "vtkObjectFactory.h"
-#include "vtkOutputWindow.h"
 #include "vtkPolyData.h"
 #include "vtkRadiosityArrays.h"
 #include "vtkSceneAdapter.h"
-#include "vtkXMLPolyDataReader.h"
+#include "vtkStoredPieces.h"
+#include "vtkValueArrays.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <set>
-#include <vtksys/SystemTools.hxx>
 
 namespace lambert {
 namespace {
-/// Hears what VTK's reader would print.
-class ErrorListener : public vtkCommand {
- public:
-  static ErrorListener* New() { return new ErrorListener; }
-  void Execute(vtkObject*, unsigned long, void*) override { this->Heard = true; }
-  bool Heard = false;
-};
-
-/// Hears what the objects that a reader makes for itself would print.
-class ErrorWindow : public vtkOutputWindow {
- public:
-  static ErrorWindow* New() { VTK_STANDARD_NEW_BODY(ErrorWindow); }
-  void DisplayErrorText(const char*) override { this->Heard = true; }
-  void DisplayText(const char*) override {}
-  bool Heard = false;
-};
-
-/// While it lives, VTK tells of its errors: it does so only while warnings are displayed.
-class ErrorsTold {
- public:
-  explicit ErrorsTold(vtkOutputWindow* window) {
-    vtkObject::GlobalWarningDisplayOn();
-    vtkOutputWindow::SetInstance(window);
-  }
-  ~ErrorsTold() {
-    vtkOutputWindow::SetInstance(this->WindowBefore);
-    vtkObject::SetGlobalWarningDisplay(this->DisplayBefore);
-  }
-  ErrorsTold(const ErrorsTold&) = delete;
-  ErrorsTold& operator=(const ErrorsTold&) = delete;
-
- private:
-  vtkSmartPointer<vtkOutputWindow> WindowBefore = vtkOutputWindow::GetInstance();
-  int DisplayBefore = vtkObject::GetGlobalWarningDisplay();
-};
-
-/// VTK's reader crashes on arrays of a type that it does not know.
-bool HasKnownTypes(const std::string& file) {
-  static const std::set<std::string> known{"Int8",    "Int16",   "Int32",  "Int64",
-                                           "UInt8",   "UInt16",  "UInt32", "UInt64",
-                                           "Float32", "Float64", "String", "Bit"};
-  // Tags, each with what stands before it; appended data are not read.
-  std::ifstream stream(file, std::ios::binary);
-  std::string text;
-  while (std::getline(stream, text, '>') && text.find("<AppendedData") == text.npos) {
-    const size_t begin = text.rfind('<');
-    if (begin == text.npos) {
-      continue;
-    }
-    const std::string tag = text.substr(begin);
-    if (tag.rfind("<DataArray", 0) != 0 && tag.rfind("<Array", 0) != 0) {
-      continue;
-    }
-    const size_t type = tag.find(" type=");
-    if (type == std::string::npos || type + 8 > tag.size()) {
-      return false;
-    }
-    const size_t first = type + 7;  // Behind the quotation mark, of either kind.
-    if (known.count(tag.substr(first, tag.find(tag[first - 1], first) - first)) == 0) {
-      return false;
-    }
-  }
-  return true;
-}
-
-bool IsVtp(const std::string& file) {
-  return vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(file)) ==
-         ".vtp";
-}
-
-vtkSmartPointer<vtkPolyData> ReadVtp(const std::string& file) {
-  if (!vtksys::SystemTools::TestFileAccess(file, vtksys::TEST_FILE_READ | vtksys::TEST_FILE_OK)) {
-    throw Error("The file '" + file + "' cannot be opened.");
-  }
-  vtkNew<ErrorWindow> window;
-  const ErrorsTold told(window);
-  vtkNew<ErrorListener> listener;
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetReaderErrorObserver(listener);
-  reader->SetParserErrorObserver(listener);
-  reader->AddObserver(vtkCommand::ErrorEvent, listener);
-  reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listener);
-  reader->SetFileName(file.c_str());
-  const bool readable = reader->CanReadFile(file.c_str()) != 0 && HasKnownTypes(file);
-  if (readable) {
-    reader->Update();
-  }
-  if (!readable || listener->Heard || window->Heard || reader->GetErrorCode() != 0) {
-    throw Error("The file '" + file + "' is not a VTP file or is damaged.");
-  }
-  if (reader->GetOutput()->GetNumberOfPolys() + reader->GetOutput()->GetNumberOfStrips() == 0) {
-    throw Error("The file '" + file + "' has no faces.");
-  }
-  return reader->GetOutput();
-}
-
 /// Faces and points of a part, in the mesh that holds all.
 struct PartExtent {
   std::vector<int32_t> faces, points;
@@ -183,7 +81,7 @@ std::vector<TriangleMesh> SplitIntoParts(size_t partCount, TriangleMesh all) {
   return meshes;
 }
 
-/// What a VTP's faces lack is taken from the options.
+/// What the faces of a stored scene lack is taken from the options.
 void ApplyOptions(bool hasReflectance, const SceneReaderOptions& options, Scene* scene) {
   if (!hasReflectance) {
     scene->mesh.reflectance.assign(scene->mesh.triangles.size(), options.defaultReflectance);
@@ -236,6 +134,68 @@ void AppendScene(Scene scene, double metresPerUnit, SceneAssembly* assembly) {
     assembly->camera = scene.camera;
   }
 }
+/// The scene of a piece, with names where its tables have none.
+Scene SceneOfPiece(const StoredPiece& piece, vtkPolyData* stored) {
+  try {
+    Scene scene = SceneAsStoredInPolyData(stored);
+    if (!stored->GetFieldData()->GetAbstractArray(vtkRadiosityArrays::PartName())) {
+      for (Part& part : scene.parts) part.name = piece.name;
+    }
+    return scene;
+  } catch (const Error& error) {
+    if (piece.collection.empty()) throw;
+    throw Error("The piece '" + piece.file + "' of '" + piece.collection +
+                "' cannot be read: " + error.what());
+  }
+}
+
+/// Which rows of the scene's table the materials of a piece are, where it knows.
+std::optional<std::vector<int32_t>> MaterialRowsOf(vtkPolyData* piece) {
+  vtkDataArray* rows = piece->GetFieldData()->GetArray(vtkRadiosityArrays::MaterialRow());
+  if (!rows) return {};
+  return NumbersFromArray<int32_t>(rows);
+}
+
+/// The matrices that parts were stored with, by their rows in the assembly.
+using StoredMatrices = std::vector<std::pair<size_t, std::array<double, 16>>>;
+
+/// Adds the scene of a VTP, or of all pieces of a VTPC, to the assembly.
+void AppendStoredScene(const std::string& file, const SceneReaderOptions& options,
+                       double metresPerUnit, StoredMatrices* matrices, SceneAssembly* assembly) {
+  PieceJoining joining(assembly);
+  const int64_t facesBefore = assembly->report.faces;
+  for (const StoredPiece& piece : FindStoredPieces(file)) {
+    // What the piece holds.
+    vtkSmartPointer<vtkPolyData> stored = ReadStoredPiece(piece);
+    Scene scene = SceneOfPiece(piece, stored);
+    joining.NumberMaterials(MaterialRowsOf(stored), &scene);
+    joining.TakeRepeatedLights(&scene);
+    ReadEnvironmentImages(&scene.lights);
+    assembly->report.faces += stored->GetNumberOfPolys() + stored->GetNumberOfStrips();
+    const bool hasReflectance =
+        stored->GetCellData()->GetArray(vtkRadiosityArrays::Reflectance()) != nullptr;
+    stored = nullptr;
+
+    // Other files that it needs.
+    if (!piece.collection.empty()) assembly->report.companions.push_back(piece.file);
+    for (const Light& light : scene.lights) {
+      if (light.image) assembly->report.companions.push_back(light.imageFile);
+    }
+
+    // In metres, behind what is there.
+    ApplyOptions(hasReflectance, options, &scene);
+    Scale(metresPerUnit, &scene);
+    for (size_t i = 0; i < scene.parts.size(); ++i) {
+      matrices->emplace_back(assembly->parts.size() + i, scene.parts[i].objectToWorld);
+    }
+    AppendScene(std::move(scene), metresPerUnit, assembly);
+  }
+  joining.JoinMaterials();
+  if (assembly->report.faces == facesBefore) {
+    throw Error("The file '" + file + "' has no faces.");
+  }
+  assembly->report.files.push_back(file);
+}
 }  // namespace
 
 Scene LoadScene(const std::vector<std::string>& files, const SceneReaderOptions& readerOptions,
@@ -257,34 +217,18 @@ Scene LoadScene(const std::vector<std::string>& files, const SceneReaderOptions&
   }
 
   // Read.
-  std::vector<std::string> vtpFiles, otherFiles;
+  std::vector<std::string> storedScenes, otherFiles;
   for (const std::string& file : files) {
-    (IsVtp(file) ? vtpFiles : otherFiles).push_back(file);
+    (IsStoredScene(file) ? storedScenes : otherFiles).push_back(file);
   }
   SceneAssembly assembly;
   if (!otherFiles.empty()) {
     assembly = ReadScene(otherFiles, readerOptions, half(0));
   }
   const double metresPerUnit = readerOptions.metresPerUnit > 0 ? readerOptions.metresPerUnit : 1;
-  std::vector<std::pair<size_t, std::array<double, 16>>> storedMatrices;
-  for (const std::string& file : vtpFiles) {
-    vtkSmartPointer<vtkPolyData> stored = ReadVtp(file);
-    Scene scene = SceneAsStoredInPolyData(stored);
-    ReadEnvironmentImages(&scene.lights);
-    for (const Light& light : scene.lights) {
-      if (light.image) assembly.report.companions.push_back(light.imageFile);
-    }
-    const bool hasReflectance =
-        stored->GetCellData()->GetArray(vtkRadiosityArrays::Reflectance()) != nullptr;
-    assembly.report.faces += stored->GetNumberOfPolys() + stored->GetNumberOfStrips();
-    stored = nullptr;
-    ApplyOptions(hasReflectance, readerOptions, &scene);
-    Scale(metresPerUnit, &scene);
-    for (size_t i = 0; i < scene.parts.size(); ++i) {
-      storedMatrices.emplace_back(assembly.parts.size() + i, scene.parts[i].objectToWorld);
-    }
-    AppendScene(std::move(scene), metresPerUnit, &assembly);
-    assembly.report.files.push_back(file);
+  StoredMatrices storedMatrices;
+  for (const std::string& file : storedScenes) {
+    AppendStoredScene(file, readerOptions, metresPerUnit, &storedMatrices, &assembly);
   }
   if (otherFiles.empty()) {
     assembly.report.unit = "m";

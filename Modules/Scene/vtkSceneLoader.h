@@ -7,8 +7,9 @@
 #include "lambertSceneModule.h"
 
 namespace lambert {
-/// Reads `files` in the given order (VTP by VTK, after all others), applies `materialSettings` (see
-/// ApplyMaterialSetting), cleans and places. A VTP keeps its parts, materials, lights and camera;
+/// Reads `files` in the given order (VTP and VTPC by VTK, after all others), applies
+/// `materialSettings` (see ApplyMaterialSetting), cleans and places. A VTP keeps its parts,
+/// materials, lights and camera, and a VTPC those of all its pieces, with what they repeat once;
 /// the first camera found counts. The reports may be null. Throws Error, one clear sentence, and
 /// Cancelled.
 LAMBERTSCENE_EXPORT Scene LoadScene(const std::vector<std::string>& files,
