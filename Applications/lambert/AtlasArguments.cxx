@@ -1,9 +1,9 @@
 #include "AtlasArguments.h"
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 
 #include "ArgumentChecks.h"
+#include "Engine/PolyDataFile.h"
 #include "FilesOfRun.h"
 
 namespace lambert {
@@ -39,7 +39,8 @@ std::vector<CLI::Option*> AddAtlasOptions(CLI::App* command, AtlasOptions* atlas
 
 void AtlasArguments::AddTo(CLI::App* command) {
   scene.AddTo(command);
-  command->add_option("-o,--output", output, "Mesh with its texture coordinates, .vtp")->required();
+  command->add_option("-o,--output", output, "Mesh with its texture coordinates, .vtp or .vtpc")
+      ->required();
   AddAtlasOptions(command, &atlas);
   command->add_option("--threads", threads, "Threads; 0: all processors")
       ->check(CLI::Range(0, 1024))
@@ -50,15 +51,15 @@ void AtlasArguments::AddTo(CLI::App* command) {
 }
 
 void AtlasArguments::Check() const {
-  if (std::filesystem::path(output).extension() != ".vtp") {
-    throw CLI::ValidationError("--output", "the name has to end in .vtp");
+  if (!IsPolyDataFileName(output)) {
+    throw CLI::ValidationError("--output", "the name has to end in .vtp or .vtpc");
   }
   RequirePngName(image);
   FilesOfRun(scene.files).AddOutputs(this->Outputs());
 }
 
 std::vector<OutputOfRun> AtlasArguments::Outputs() const {
-  return {{"--output", output}, {"--image", image}, {"--report", report}};
+  return {{"--output", output, true}, {"--image", image}, {"--report", report}};
 }
 
 }  // namespace lambert

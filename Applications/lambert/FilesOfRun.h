@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "Common/Core/CollectionFile.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/OutputFile.h"
 
@@ -15,6 +16,8 @@ namespace lambert {
 /// A file that a run writes, and the option that asks for it; without a name it is not asked for.
 struct OutputOfRun {
   std::string option, name;
+  bool isMesh = false;  ///< where it ends in .vtpc, a collection and the folder of its pieces
+  bool IsCollection() const { return isMesh && IsCollectionFileName(name); }
 };
 
 class FilesOfRun {
@@ -30,14 +33,27 @@ class FilesOfRun {
   /// Throws CLI::ValidationError where one would write over another file of the run, finished or
   /// not.
   void AddOutputs(const std::vector<OutputOfRun>& outputs) {
-    for (const auto& [option, name] : outputs) {
+    for (const OutputOfRun& output : outputs) {
+      const auto& [option, name, isMesh] = output;
       this->Add(option, name, true);
       const std::string unfinished = name.empty() ? "" : UnfinishedOutput(name);
       if (unfinished != name) this->Add(option, unfinished, true);
+      if (output.IsCollection()) this->Add(option, FolderOfPieces(name), true);
+    }
+    for (const OutputOfRun& output : outputs) {
+      if (output.IsCollection()) this->RequireNoPieces(output);
     }
   }
 
  private:
+  /// Earlier pieces are written over, too.
+  void RequireNoPieces(const OutputOfRun& collection) const {
+    for (const auto& [file, option] : uses_) {
+      if (!IsPieceOf(collection.name, file)) continue;
+      throw CLI::ValidationError(collection.option, "would write over the file of " + option);
+    }
+  }
+
   void Add(const std::string& option, const std::string& name, bool isOutput) {
     namespace fs = std::filesystem;
     if (name.empty()) return;
@@ -56,7 +72,8 @@ class FilesOfRun {
 /// Throws Error where one of the outputs cannot be written.
 inline void RequireWritable(const std::vector<OutputOfRun>& outputs) {
   for (const OutputOfRun& output : outputs) {
-    if (!output.name.empty()) RequireWritable(output.name);
+    if (output.name.empty()) continue;
+    output.IsCollection() ? RequireWritableCollection(output.name) : RequireWritable(output.name);
   }
 }
 

@@ -14,7 +14,8 @@ const std::map<std::string, double> kUnits{
 }  // namespace
 
 void SceneArguments::AddTo(CLI::App* command) {
-  command->add_option("SCENE", files, "Scene files: OBJ, glTF/GLB, PLY, STL, VTP")->required();
+  command->add_option("SCENE", files, "Scene files: OBJ, glTF/GLB, PLY, STL, VTP, VTPC")
+      ->required();
   command->add_option("--unit", unit, "Length unit of the files: m, cm, mm, in, ft")
       ->check(CLI::IsMember({"m", "cm", "mm", "in", "ft"}));
   command->add_option("--set", settings, "MATERIAL:reflectance=R,G,B|emission=R,G,B|two-sided")

@@ -158,7 +158,7 @@ void SolveArguments::AddOutputsTo(CLI::App* command) {
   AddToneOptions(command, &tone, &dodgingAndBurning);
   AddFalseColorOptions(command, picture, this);
   CLI::Option* map = command->add_option(
-      "--lightmap", lightMap, "Mesh with texture coordinates, .vtp, its pages beside it");
+      "--lightmap", lightMap, "Mesh with texture coordinates, .vtp or .vtpc, its pages beside it");
   for (CLI::Option* option : AddAtlasOptions(command, &atlas)) option->needs(map);
   AddTexelDensity(command, map, &atlas);
   AddRepresentationOptions(command, map, this);

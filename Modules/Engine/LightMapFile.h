@@ -12,8 +12,9 @@
 #include <vector>
 
 namespace lambert {
-/// Writes NAME.vtp, the mesh of `scene` with LightMapTCoords, ChartId and PageId; where it is
-/// that of `shown`, InputFaceId and Side. Throws Error where the file cannot be written.
+/// Writes NAME.vtp or NAME.vtpc, the mesh of `scene` with LightMapTCoords, ChartId and PageId;
+/// where it is that of `shown`, InputFaceId and Side. Throws Error where the file cannot be
+/// written.
 LAMBERTENGINE_EXPORT void WriteLightMap(const RadiosityAtlas& atlas, const Scene& scene,
                                         const ShownSides* shown, const std::string& fileName);
 

@@ -1,6 +1,9 @@
 #include "PolyDataFile.h"
 
+#include "Common/Core/CollectionFile.h"
 #include "Common/Core/OutputFile.h"
+#include "Scene/vtkScenePieces.h"
+#include "SolutionFile.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkXMLPolyDataWriter.h"
@@ -15,9 +18,8 @@ bool EndsWith(const std::string& fileName, const std::string& end) {
   file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
   return file.read(tail.data(), static_cast<std::streamsize>(tail.size())) && tail == end;
 }
-}  // namespace
 
-void WritePolyData(vtkPolyData* mesh, const std::string& fileName) {
+void WriteVtp(vtkPolyData* mesh, const std::string& fileName) {
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(mesh);
   writer->SetDataModeToAppended();
@@ -28,5 +30,27 @@ void WritePolyData(vtkPolyData* mesh, const std::string& fileName) {
     // A full disk is no error to VTK's writer: see whether the end arrived.
     return writer->Write() && writer->GetErrorCode() == 0 && EndsWith(place, "</VTKFile>\n");
   });
+}
+
+void WriteVtpc(vtkPolyData* mesh, const std::string& fileName) {
+  ScenePieces pieces(mesh);
+  WriteCollection(fileName, pieces.PartNames(), [&](size_t part, const std::string& file) {
+    vtkNew<vtkPolyData> piece;
+    pieces.Take(part, piece);
+    WriteVtp(piece, file);
+  });
+}
+}  // namespace
+
+bool IsPolyDataFileName(const std::string& fileName) {
+  return FileEnding(fileName) == ".vtp" || IsCollectionFileName(fileName);
+}
+
+void WritePolyData(vtkPolyData* mesh, const std::string& fileName) {
+  if (IsCollectionFileName(fileName)) {
+    WriteVtpc(mesh, fileName);
+  } else {
+    WriteVtp(mesh, fileName);
+  }
 }
 }  // namespace lambert

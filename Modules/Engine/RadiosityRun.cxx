@@ -145,13 +145,15 @@ void RadiosityRun::Solve(const ProgressCallback& progress, const std::function<b
   Timer timer;
   std::string stoppedBy;
   HierarchicalRadiosityOptions options = this->options_.solver;
+  const double outputSeconds =
+      this->options_.outputSeconds +
+      this->options_.outputSecondsPerPart * static_cast<double>(this->scene_.parts.size());
   if (this->options_.timeLimit > 0) {
-    options.timeLimit = std::max(
-        1e-3, this->options_.timeLimit - SecondsSinceProcessStart() - this->options_.outputSeconds);
+    options.timeLimit =
+        std::max(1e-3, this->options_.timeLimit - SecondsSinceProcessStart() - outputSeconds);
   }
   HierarchicalRadiosity solver(this->scene_, this->tree_, options);
-  TimeBudget budget(this->options_.timeLimit, this->options_.outputSeconds,
-                    solver.Statistics().history);
+  TimeBudget budget(this->options_.timeLimit, outputSeconds, solver.Statistics().history);
   bool hasLight = false;
   solver.Run(
       [&](double fraction, const char* stage) {

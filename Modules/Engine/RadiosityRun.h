@@ -41,6 +41,7 @@ struct RadiosityRunOptions {
   std::map<std::string, Representation> representations;  ///< by material, as asked for
   double timeLimit = 0;        ///< seconds since the process began, writing included; 0: none
   double outputSeconds = 0.2;  ///< kept free for what is not proportional to the mesh (a picture)
+  double outputSecondsPerPart = 0;  ///< the same for each part (files of a collection)
 };
 
 /// Runs the stages one after the other and keeps what each made.

@@ -15,7 +15,7 @@ namespace lambert {
 namespace {
 namespace fs = std::filesystem;
 
-void WriteVtp(const RadiositySolution& solution, const Scene& scene, const std::string& fileName) {
+void WriteMesh(const RadiositySolution& solution, const Scene& scene, const std::string& fileName) {
   vtkNew<vtkPolyData> data;
   PolyDataFromSolution(solution, scene, data);
   WritePolyData(data, fileName);
@@ -84,7 +84,7 @@ std::string FileEnding(const std::string& fileName) {
 }
 
 bool IsSolutionFileName(const std::string& fileName) {
-  return FileEnding(fileName) == ".vtp" || FileEnding(fileName) == ".ply";
+  return IsPolyDataFileName(fileName) || FileEnding(fileName) == ".ply";
 }
 
 std::vector<int64_t> BrighterSides(const RadiositySolution& solution) {
@@ -121,8 +121,8 @@ std::vector<int64_t> BrighterSides(const RadiositySolution& solution) {
 void WriteSolution(const RadiositySolution& solution, const Scene& scene,
                    const std::string& fileName, const ToneMappingOptions& toneMapping,
                    bool bothSides) {
-  if (FileEnding(fileName) == ".vtp") {
-    WriteVtp(solution, scene, fileName);
+  if (IsPolyDataFileName(fileName)) {
+    WriteMesh(solution, scene, fileName);
     return;
   }
   std::vector<int64_t> triangles(solution.mesh.triangles.size());

@@ -1,4 +1,4 @@
-// Solved scenes as files: .vtp with every array, .ply with vertex colours. C++ only.
+// Solved scenes as files: .vtp and .vtpc with every array, .ply with vertex colours. C++ only.
 #ifndef SolutionFile_h
 #define SolutionFile_h
 
@@ -13,13 +13,14 @@ namespace lambert {
 /// The ending of a file name in small letters, with its dot: ".vtp".
 LAMBERTENGINE_EXPORT std::string FileEnding(const std::string& fileName);
 
-/// True for the names that WriteSolution can write: ending in .vtp or .ply, in any case.
+/// True for the names that WriteSolution can write: ending in .vtp, .vtpc or .ply, in any case.
 LAMBERTENGINE_EXPORT bool IsSolutionFileName(const std::string& fileName);
 
 /// Writes by the ending. `.vtp`: the refined mesh with all its arrays and the tables of `scene`.
-/// `.ply`: binary, per vertex x y z, nx ny nz, red green blue (tone mapped, sRGB), irradiance_r
-/// irradiance_g irradiance_b (W/m2). Viewers of PLY do not cull, so of a face with two lit sides
-/// the brighter stays, unless `bothSides`. Throws Error where the file cannot be written.
+/// `.vtpc`: the same part by part. `.ply`: binary, per vertex x y z, nx ny nz, red green blue (tone
+/// mapped, sRGB), irradiance_r irradiance_g irradiance_b (W/m2). Viewers of PLY do not cull, so of
+/// a face with two lit sides the brighter stays, unless `bothSides`. Throws Error where the file
+/// cannot be written.
 LAMBERTENGINE_EXPORT void WriteSolution(const RadiositySolution& solution, const Scene& scene,
                                         const std::string& fileName,
                                         const ToneMappingOptions& toneMapping = {},

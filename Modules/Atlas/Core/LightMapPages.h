@@ -17,7 +17,8 @@ enum class PageFormat {
   Png   ///< 8-bit codes
 };
 
-/// Names of the pages of the light map NAME.vtp: NAME-0.hdr, NAME-1.hdr, ... by the format.
+/// Names of the pages of the light map NAME.vtp (or .vtpc): NAME-0.hdr, NAME-1.hdr, ... by the
+/// format.
 std::vector<std::string> LightMapPageNames(const std::string& fileName, int pages,
                                            PageFormat format);
 
