@@ -121,6 +121,18 @@ TEST_F(CollectionFile, IsRefusedWhereItsFolderCannotBe) {
   EXPECT_THROW(RequireWritableCollection("/proc/room.vtpc"), Error);
 }
 
+TEST_F(CollectionFile, LiesBesideALinkToIt) {
+  fs::create_directory(Place("far"));
+  fs::create_symlink("far/target.vtpc", Place("room.vtpc"));
+  RequireWritableCollection(Place("room.vtpc"));
+  EXPECT_EQ(FilesIn(""), (Files{"far", "room.vtpc"}));
+  Write(Place("room.vtpc"), {"a"}, "piece ");
+  EXPECT_TRUE(fs::is_symlink(Place("room.vtpc")));
+  EXPECT_EQ(BytesOf("far/target.vtpc"), BytesOf("room.vtpc"));
+  EXPECT_NE(BytesOf("room.vtpc").find("room/room-0-0.vtp"), std::string::npos);
+  EXPECT_EQ(FilesIn("room"), Files{"room-0-0.vtp"});
+}
+
 TEST_F(CollectionFile, KnowsItsPieces) {
   const std::string room = Place("room.vtpc");
   EXPECT_TRUE(IsPieceOf(room, Place("room/room-0-0.vtp")));
