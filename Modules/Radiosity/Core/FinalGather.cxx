@@ -21,9 +21,6 @@ constexpr int kDirectionCells = 8;  ///< across the square that the hemisphere i
 constexpr int64_t kBatchesAtOnce = 1024;
 /// A leaf nearer than this many of its radii is not taken as one.
 constexpr float kNear = 1;
-/// A place on a leaf is at most so many times as bright as the leaf, or as leaves are in the mean:
-/// one whose samples are all hidden tells nothing of a place that is not.
-constexpr float kMostOfLeaf = 16, kMostOfMean = 20;
 /// A facet that turns within a leaf receives up to this many times what its nearest sample does.
 constexpr float kMostTurned = 2;
 /// Samples of a leaf one of which receives more than this many times what another does, and
@@ -369,8 +366,7 @@ FinalGather::Radiosity FinalGather::Met(const Vec3f& from, const Vec3f& directio
   const Spectrum ofLeaf = reflectance * this->IrradianceOfLeaf(leaf, place, normal, rays);
   if (bounces == 0 || hit.distance >= kNear * element.radius) return {{}, ofLeaf, hit.distance};
 
-  // One direction stands for all of them: what it finds is taken up to some times what the leaf,
-  // this place on it, or the mean of all leaves has, whichever is most.
+  // One direction stands for all of them.
   const GatherPoint at{place, normal, normal};
   Vec3f u, v;
   CoordinateSystem(normal, &u, &v);
@@ -378,17 +374,7 @@ FinalGather::Radiosity FinalGather::Met(const Vec3f& from, const Vec3f& directio
   const Spectrum direct = direct_.Sample(at, 1, random->Bits(), rays).irradiance;
   const Radiosity next =
       this->Met(place, u * d.x + v * d.y + normal * d.z, random, bounces - 1, rays);
-  Radiosity found{reflectance * (direct + next.fromSources), reflectance * next.fromLeaves,
-                  hit.distance};
-  const float brightness = (found.fromSources + found.fromLeaves).Mean();
-  const Spectrum inTheMean = reflectance * polygonIrradiance_[size_t(leaf)];
-  const float most = std::max(kMostOfLeaf * std::max(ofLeaf.Mean(), inTheMean.Mean()),
-                              kMostOfMean * meanRadiosity_);
-  if (brightness > most) {
-    found.fromSources *= most / brightness;
-    found.fromLeaves *= most / brightness;
-  }
-  return found;
+  return {reflectance * (direct + next.fromSources), reflectance * next.fromLeaves, hit.distance};
 }
 
 namespace {

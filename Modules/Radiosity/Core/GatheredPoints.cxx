@@ -29,9 +29,9 @@ constexpr int kMostDirectRays = 64;
 constexpr int kLeastShadowNeighbours = 8, kShadowNeighbours = 12;
 /// A point's scatter counts in this part by the area that it stands for, else as one of all points.
 constexpr double kByArea = 0.75;
-/// Bounced light that scatters by more than this part of the light at a point, which counts as at
-/// least a part of the mean, is seen as a blotch, however little it adds to the error.
-constexpr double kBlotch = 0.16, kDimmest = 0.5;
+/// Bounced light that scatters by more than this part of the light at a point, or of the mean where
+/// that is more, is seen as a blotch, however little it adds to the error.
+constexpr double kBlotch = 0.2;
 /// Rounds of more rays; in one a point gets up to this many times the rays it had.
 constexpr int kRounds = 3;
 constexpr int kMostGrowth = 16;
@@ -282,7 +282,8 @@ void GatheredPoints::Share(int32_t first, const SampleNeighbours& neighbours) {
 
 // What each new point adds to the squared relative error, by its area and as one of all points, and
 // by how much its rays have to grow until its scatter is no blotch. Probes need nothing.
-GatheredPoints::Scatter GatheredPoints::ScatterOfNew(int32_t first) const {
+GatheredPoints::Scatter GatheredPoints::ScatterOfNew(int32_t first,
+                                                     const SampleNeighbours& neighbours) const {
   const auto lightOf = [](const Record& r) {
     return std::sqrt(SquaredNorm(r.direct.irradiance + r.bounced.irradiance));
   };
@@ -305,9 +306,16 @@ GatheredPoints::Scatter GatheredPoints::ScatterOfNew(int32_t first) const {
   for (size_t i = size_t(first); i < records_.size(); ++i) {
     const Record& r = records_[i];
     if (r.isProbe) continue;
-    const double variance = double(r.bounced.variance), light = lightOf(r);
+    // If each asked itself alone, those that happened to find nothing would stay dark.
+    double around = 0;
+    const int32_t* const begin = neighbours.begin(int32_t(i));
+    const int32_t* const end = neighbours.end(int32_t(i));
+    for (const int32_t* other = begin; other != end; ++other) {
+      around += double(records_[size_t(*other)].bounced.variance) / double(end - begin);
+    }
+    const double variance = std::max(around, double(r.bounced.variance)), light = lightOf(r);
     scatter.noise[i] = share(r) * variance * ErrorWeight(light, mean, meanSquare);
-    const double unseen = kBlotch * std::max(light, kDimmest * mean);
+    const double unseen = kBlotch * std::max(light, mean);
     scatter.growth[i] = std::min(double(kMostGrowth), std::max(1.0, variance / (unseen * unseen)));
   }
   return scatter;
@@ -320,7 +328,7 @@ void GatheredPoints::GatherWhereItScatters(int32_t first, const SampleNeighbours
   const double allowed = options_.noise * options_.noise;
   for (int round = 0; round < kRounds; ++round) {
     this->Share(first, neighbours);
-    const Scatter scatter = this->ScatterOfNew(first);
+    const Scatter scatter = this->ScatterOfNew(first, neighbours);
     double total = 0;
     for (const double n : scatter.noise) total += n;
 

@@ -77,7 +77,7 @@ class GatheredPoints {
   struct Scatter {
     std::vector<double> noise, growth;
   };
-  Scatter ScatterOfNew(int32_t first) const;
+  Scatter ScatterOfNew(int32_t first, const SampleNeighbours& neighbours) const;
   IrradianceSample SampleOf(const Record& record) const;
   void SampleAll();
 
