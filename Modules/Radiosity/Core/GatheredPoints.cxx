@@ -256,7 +256,8 @@ void GatheredPoints::ShareDirect(int32_t first, const SampleNeighbours& neighbou
     const Spectrum visible = FilterVisibility(visibility_, samples_, neighbours, i);
     for (int band = 0; band < 3; ++band) {
       const float fromLights = record->direct.irradiance[band] - record->direct.fromEmitters[band];
-      record->shared[band] = std::max(0.f, fromLights) + visible[band] * record->direct.unoccluded;
+      record->shared[band] = std::min(
+          brightest_[band], std::max(0.f, fromLights) + visible[band] * record->direct.unoccluded);
     }
   });
 }
@@ -274,7 +275,7 @@ void GatheredPoints::Share(int32_t first, const SampleNeighbours& neighbours) {
     record.bounced = FilterIrradiance(samples_, neighbours, index, float(usual));
     // Few rays may all find the brightest of all, beside direct light from much of the hemisphere.
     for (int band = 0; band < 3; ++band) {
-      const float most = std::max(0.f, brightest_[band] - record.direct.irradiance[band]);
+      const float most = std::max(0.f, brightest_[band] - record.shared[band]);
       record.bounced.irradiance[band] = std::min(most, record.bounced.irradiance[band]);
     }
   });
