@@ -257,7 +257,7 @@ ChartMask ChartMask::Turned() const {
   return turned;
 }
 
-Packing PackCharts(const std::vector<ChartMask>& charts, int pageSize) {
+Packing PackCharts(const std::vector<ChartMask>& charts, int pageSize, PackingOrder by) {
   // The four ways to lay each.
   std::vector<std::array<Shape, 4>> turned(charts.size());
   for (const ChartMask& chart : charts) {
@@ -272,20 +272,29 @@ Packing PackCharts(const std::vector<ChartMask>& charts, int pageSize) {
     for (size_t t = 1; t < 4; ++t) ways[t] = Shape(ways[t - 1].mask.Turned());
   });
 
-  // The longest first.
-  const auto longest = [&](int32_t i) {
-    return std::max(charts[size_t(i)].Height(), charts[size_t(i)].Width());
-  };
-  const auto shortest = [&](int32_t i) {
-    return std::min(charts[size_t(i)].Height(), charts[size_t(i)].Width());
+  // The largest first, as `by` tells; of equal ones the longest.
+  const auto rank = [&](int32_t i) {
+    const ChartMask& chart = charts[size_t(i)];
+    const int64_t width = chart.Width(), height = chart.Height();
+    int64_t first = 0;
+    switch (by) {
+      case PackingOrder::Longest:
+        break;
+      case PackingOrder::Widest:
+        first = std::min(width, height);
+        break;
+      case PackingOrder::LargestPerimeter:
+        first = width + height;
+        break;
+      case PackingOrder::LargestArea:
+        first = turned[size_t(i)][0].area;
+        break;
+    }
+    return std::make_tuple(-first, -std::max(width, height), -std::min(width, height), i);
   };
   std::vector<int32_t> order(charts.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int32_t a, int32_t b) {
-    if (longest(a) != longest(b)) return longest(a) > longest(b);
-    if (shortest(a) != shortest(b)) return shortest(a) > shortest(b);
-    return a < b;
-  });
+  std::sort(order.begin(), order.end(), [&](int32_t a, int32_t b) { return rank(a) < rank(b); });
 
   // Page after page; what does not fit waits for the next.
   Packing packing;

@@ -44,8 +44,15 @@ struct Packing {
   int64_t takenTexels = 0;  ///< by all charts
 };
 
-/// Charts on pages of `pageSize` x `pageSize` texels, the longest first; as many pages as it takes.
+/// Which charts come first.
+enum class PackingOrder : uint8_t { Longest, Widest, LargestPerimeter, LargestArea };
+constexpr PackingOrder kPackingOrders[] = {PackingOrder::Longest, PackingOrder::Widest,
+                                           PackingOrder::LargestPerimeter,
+                                           PackingOrder::LargestArea};
+
+/// Charts on pages of `pageSize` x `pageSize` texels; as many pages as it takes.
 /// Throws Error for a chart that is larger than a page.
-Packing PackCharts(const std::vector<ChartMask>& charts, int pageSize);
+Packing PackCharts(const std::vector<ChartMask>& charts, int pageSize,
+                   PackingOrder order = PackingOrder::Longest);
 
 }  // namespace lambert

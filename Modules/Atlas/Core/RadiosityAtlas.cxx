@@ -16,14 +16,17 @@ namespace lambert {
 
 namespace {
 
-/// The part of the pages that charts are first thought to fill; what is left of them at the end.
-constexpr double kFirstFill = 0.7, kLeastFill = 0.98;
+/// The part of the pages that charts are first thought to fill.
+constexpr double kFirstFill = 0.7;
 /// A chart may leave so much empty of its rectangle, of the area of all.
 constexpr double kMostEmpty = 0.01;
-/// Attempts at the size of the texels that fills the pages, the first of them to find any.
+/// Attempts at the size of the texels that fills the pages, for every order of the charts.
 constexpr int kAttempts = 10;
 /// The part of the pages that the next attempt aims at.
 constexpr double kSafety = 0.99;
+/// Texels a metre of the next attempt where all seems full, by those of the best: at least, at
+/// most. It is good enough where it has this part of those that were too many.
+constexpr double kStep = 1.0025, kStride = 1.01, kLeastFill = 0.995;
 /// Pages that an atlas may have where its texels' size is given.
 constexpr int kMostPages = 256;
 /// Texels around a chart that are its own, whatever the padding; and those by which it may be off,
@@ -107,11 +110,11 @@ class Layout {
     }
   }
 
-  Packing Pack(double density) const {
+  Packing Pack(double density, PackingOrder order) const {
     std::vector<ChartMask> masks(set_.charts.size());
     ParallelForEach(int64_t(masks.size()), 16,
                     [&](int64_t i) { masks[size_t(i)] = this->Mask(size_t(i), density); });
-    return PackCharts(masks, options_.pageSize);
+    return PackCharts(masks, options_.pageSize, order);
   }
 
   /// By how much `density` may grow so that charts take `factor` times as many texels as they do in
@@ -185,25 +188,34 @@ void RequireAtlasOptions(const AtlasOptions& options) {
 double FillPages(const Layout& layout, const AtlasOptions& options, Packing* packing,
                  const ProgressCallback& progress) {
   double density = std::min(layout.MostDensity(), FirstDensity(options, layout.Area())), best = 0;
-  double tooDense = std::numeric_limits<double>::max();
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    if (!Report(progress, 0.6 + 0.4 * attempt / kAttempts, "packing charts")) throw Cancelled();
-    const Packing packed = layout.Pack(density);
-    const double fill = packed.pages - 1 + double(packed.lastHeight) / double(options.pageSize);
-    if (packed.pages <= options.pages) {
-      if (density > best) {
+  double fraction = 0.6;
+  for (const PackingOrder order : kPackingOrders) {
+    double tooDense = std::numeric_limits<double>::max();
+    for (int attempt = 0; attempt < kAttempts && best < layout.MostDensity(); ++attempt) {
+      if (!Report(progress, fraction, "packing charts")) throw Cancelled();
+      const bool isWorse = best > 0 && attempt == 0;
+      const Packing packed = layout.Pack(density, order);
+      const double fill = packed.pages - 1 + double(packed.lastHeight) / double(options.pageSize);
+      if (packed.pages <= options.pages) {
         best = density;
         *packing = packed;
+      } else if (isWorse) {
+        break;
+      } else {
+        tooDense = density;
       }
-      if (fill >= kLeastFill * options.pages || best >= layout.MostDensity()) break;
-    } else {
-      tooDense = std::min(tooDense, density);
+      if (best > kLeastFill * tooDense) break;
+      // As this attempt was full, or else between what fitted and what did not.
+      const double next = density * layout.Growth(density, packed, kSafety * options.pages / fill);
+      const bool isBetween = next > kStep * best && next < tooDense;
+      const double middle = 0.5 * (best + tooDense);
+      density = isBetween ? next : best > 0 ? std::min(middle, kStride * best) : middle;
+      density = std::min(layout.MostDensity(), density);
     }
-    if (best > kLeastFill * tooDense) break;
-    // As this attempt was full, or else between what fitted and what did not.
-    const double next = density * layout.Growth(density, packed, kSafety * options.pages / fill);
-    const bool isBetween = next > best && next < tooDense;
-    density = std::min(layout.MostDensity(), isBetween ? next : 0.5 * (best + tooDense));
+    if (!(best > 0)) break;
+    // Another order has to do better.
+    density = std::min(layout.MostDensity(), kStep * best);
+    fraction += 0.1;
   }
   return best;
 }
@@ -259,7 +271,7 @@ RadiosityAtlas PackAtlas(ChartSet set, const AtlasOptions& options,
   if (options.texelSize > 0) {
     density = 1 / options.texelSize;
     layout.RequireRoom(density);
-    packing = layout.Pack(density);
+    packing = layout.Pack(density, PackingOrder::Longest);
   } else if (!atlas.set.charts.empty()) {
     density = FillPages(layout, options, &packing, progress);
     if (!(density > 0)) {

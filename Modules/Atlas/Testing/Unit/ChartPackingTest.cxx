@@ -86,6 +86,24 @@ TEST(ChartPacking, NoTexelIsTakenTwice) {
   EXPECT_LE(packing.lastHeight, 256);
 }
 
+// Whichever come first, nothing lies on anything else; each order has charts that it suits.
+TEST(ChartPacking, OrdersDiffer) {
+  const std::vector<ChartMask> charts = {Filled(60, 4), Filled(31, 31), Filled(26, 38),
+                                         Filled(22, 42)};
+  for (const PackingOrder order : kPackingOrders) {
+    const Packing packing = PackCharts(charts, 64, order);
+    EXPECT_EQ(Taken(charts, packing, 64), packing.takenTexels);
+  }
+  // The first of each lies in the corner.
+  const PackingOrder orders[] = {PackingOrder::Longest, PackingOrder::Widest,
+                                 PackingOrder::LargestArea};
+  for (size_t first = 0; first < 3; ++first) {
+    const ChartPlace place = PackCharts(charts, 64, orders[first]).places[first];
+    EXPECT_EQ(place.x, 0);
+    EXPECT_EQ(place.y, 0);
+  }
+}
+
 TEST(ChartPacking, EqualSquaresFillAPage) {
   const std::vector<ChartMask> charts(16, Filled(16, 16));
   const Packing packing = PackCharts(charts, 64);
