@@ -1,6 +1,7 @@
 #include "Atlas/Core/ChartJoining.h"
 
 #include <algorithm>
+#include <complex>
 #include <map>
 #include <tuple>
 #include <unordered_map>
@@ -97,6 +98,43 @@ CommonLines LinesBetween(const TriangleMesh& mesh, const std::vector<int32_t>& n
     (lines.Find(int32_t(i)) == longest ? found.longest : found.others).push_back(corners[i]);
   }
   return found;
+}
+
+SideBySide LaySideBySide(const std::array<const std::vector<int32_t>*, 2>& charts,
+                         const std::vector<std::array<Vec2f, 3>>& places,
+                         const std::vector<int32_t>& neighbours, const std::vector<int32_t>& line) {
+  // The middles of the edges on both sides, and the turn between them, as complex numbers.
+  using Complex = std::complex<double>;
+  const auto placeOf = [&](int32_t face, int32_t corner) {
+    const Vec2f& p = places[size_t(face)][size_t(corner % 3)];
+    return Complex(double(p.x), double(p.y));
+  };
+  Complex here, there, turn;
+  for (const int32_t corner : line) {
+    const int32_t other = neighbours[size_t(corner)];
+    here += (placeOf(corner / 3, corner) + placeOf(corner / 3, corner % 3 + 1)) /
+            (2. * double(line.size()));
+    there += (placeOf(other / 3, other) + placeOf(other / 3, other % 3 + 1)) /
+             (2. * double(line.size()));
+    turn -= (placeOf(corner / 3, corner % 3 + 1) - placeOf(corner / 3, corner)) *
+            std::conj(placeOf(other / 3, other % 3 + 1) - placeOf(other / 3, other));
+  }
+  turn = std::abs(turn) > 0 ? turn / std::abs(turn) : 1;
+
+  SideBySide both;
+  for (const size_t chart : {0, 1}) {
+    for (const int32_t face : *charts[chart]) {
+      std::array<Vec2d, 3> corners;
+      for (int32_t c = 0; c < 3; ++c) {
+        Complex p = placeOf(face, c);
+        if (chart == 1) p = (p - there) * turn + here;
+        corners[size_t(c)] = {p.real(), p.imag()};
+      }
+      both.faces.push_back(face);
+      both.places.push_back(corners);
+    }
+  }
+  return both;
 }
 
 void JoinAlongBorders(std::vector<ChartBorder> borders, const TryToJoin& tryToJoin) {

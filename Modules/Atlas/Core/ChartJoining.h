@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "Common/Core/TriangleMesh.h"
+#include "Common/Core/Vector.h"
 
 namespace lambert {
 
@@ -27,6 +28,17 @@ struct CommonLines {
 };
 CommonLines LinesBetween(const TriangleMesh& mesh, const std::vector<int32_t>& neighbours,
                          const std::vector<int32_t>& faces, const std::vector<int32_t>& beyond);
+
+/// Two charts as they are, the second turned and moved so that they meet best along a line.
+struct SideBySide {
+  std::vector<int32_t> faces;                ///< of the first, then of the second
+  std::vector<std::array<Vec2d, 3>> places;  ///< of their corners, m
+};
+/// `line`: edges in which the first meets the second, as LinesBetween gives them; `places` by face
+/// of the mesh.
+SideBySide LaySideBySide(const std::array<const std::vector<int32_t>*, 2>& charts,
+                         const std::vector<std::array<Vec2f, 3>>& places,
+                         const std::vector<int32_t>& neighbours, const std::vector<int32_t>& line);
 
 /// Tells which of the pairs have become one; chart a then stands for both.
 using TryToJoin =

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
+#include <utility>
 
 #include "Atlas/Core/ChartJoining.h"
+#include "Atlas/Core/ChartStraightening.h"
 #include "Atlas/Core/ConformalMap.h"
 #include "Clustering/Core/ClusterFrame.h"
 #include "Common/Core/Error.h"
@@ -26,6 +27,11 @@ constexpr double kMostGuessed = 1.1;
 /// Two charts become one whose smallest rectangle is as large as theirs together, times this, at
 /// most: borders are ragged.
 constexpr double kMostJoined = 1.25;
+/// Two charts are cut anew where they leave this part of their area empty at least, to this part of
+/// their rectangles at most.
+constexpr double kLeastEmpty = 0.1, kMostCutAnew = 0.99;
+/// They may have lengths then that are powers of this, times the root of all area.
+constexpr double kLengthStep = 1.2;
 
 /// One face at a place of its own; that it has no area does no harm.
 std::vector<Vec2d> MapOfFace(const ChartMesh& chart) {
@@ -92,11 +98,21 @@ double AreaOf(const ChartMesh& mesh) {
   return sum;
 }
 
+/// What a chart keeps to besides the options: m2, m.
+struct Limits {
+  double rectangle = std::numeric_limits<double>::max();
+  double extent = std::numeric_limits<double>::max();
+};
+
 /// Faces that a chart is made of, and what is known of it.
 struct Piece {
   Chart chart;  ///< without corners: they cannot be laid flat
   std::vector<int32_t> faces;
   double rectangle = 0;  ///< m2, of the smallest about it
+  double area = 0;       ///< m2
+  double extent = 0;     ///< m, of the longer side of the upright one
+
+  double Empty() const { return rectangle - area; }
 };
 
 class Segmentation {
@@ -116,8 +132,9 @@ class Segmentation {
     };
     std::sort(pieces_.begin(), pieces_.end(), before);
     this->Join(progress);
+    this->Straighten(progress);
+    std::sort(pieces_.begin(), pieces_.end(), before);
     for (Piece& piece : pieces_) {
-      if (piece.faces.empty()) continue;
       piece.chart.first = int32_t(set_.faces.size());
       piece.chart.faceCount = int32_t(piece.faces.size());
       set_.faces.insert(set_.faces.end(), piece.faces.begin(), piece.faces.end());
@@ -138,9 +155,8 @@ class Segmentation {
       std::vector<Refusal> refusals(open.size());
       ParallelForEach(int64_t(open.size()), 1, [&](int64_t i) {
         const ClusterNode& node = tree_.nodes[size_t(open[size_t(i)])];
-        flat[size_t(i)] =
-            this->TryToFlatten(FacesFrom(node.firstFace, node.faceCount),
-                               std::numeric_limits<double>::max(), &refusals[size_t(i)]);
+        flat[size_t(i)] = this->TryToFlatten(FacesFrom(node.firstFace, node.faceCount), Limits(),
+                                             &refusals[size_t(i)]);
       });
       for (const Refusal& refusal : refusals) this->Narrow(refusal);
       std::vector<int32_t> children;
@@ -160,10 +176,6 @@ class Segmentation {
 
   /// Neighbours become one chart where that leaves no more empty than the two do.
   void Join(const ProgressCallback& progress) {
-    std::vector<int32_t> chartOfFace(size_t(mesh_.FaceCount()), 0);
-    for (size_t i = 0; i < pieces_.size(); ++i) {
-      for (const int32_t face : pieces_[i].faces) chartOfFace[size_t(face)] = int32_t(i);
-    }
     const auto tryAll = [&](const std::vector<std::array<int32_t, 2>>& pairs) {
       if (!Report(progress, 0.8, "joining charts")) throw Cancelled();
       std::vector<uint8_t> isJoined(pairs.size(), 0);
@@ -176,7 +188,35 @@ class Segmentation {
       for (const Refusal& refusal : refusals) this->Narrow(refusal);
       return isJoined;
     };
-    JoinAlongBorders(SmoothBorders(mesh_, neighbours_, chartOfFace), tryAll);
+    JoinAlongBorders(this->Borders(), tryAll);
+    const auto isJoined = [](const Piece& piece) { return piece.faces.empty(); };
+    pieces_.erase(std::remove_if(pieces_.begin(), pieces_.end(), isJoined), pieces_.end());
+  }
+
+  /// Neighbours are cut anew where that leaves less empty.
+  void Straighten(const ProgressCallback& progress) {
+    StraightenedCharts charts;
+    charts.borders = [&] { return this->Borders(); };
+    charts.empty = [&](int32_t i) { return pieces_[size_t(i)].Empty(); };
+    charts.tryToCut = [&](const std::vector<std::array<int32_t, 2>>& pairs) {
+      if (!Report(progress, 0.9, "straightening borders")) throw Cancelled();
+      std::vector<uint8_t> isCut(pairs.size(), 0);
+      const double longest = this->LongestCutAnew();
+      ParallelForEach(int64_t(pairs.size()), 1, [&](int64_t i) {
+        const auto& [a, b] = pairs[size_t(i)];
+        isCut[size_t(i)] = this->TryToCutAnew(&pieces_[size_t(a)], &pieces_[size_t(b)], longest);
+      });
+      return isCut;
+    };
+    StraightenBorders(charts);
+  }
+
+  std::vector<ChartBorder> Borders() const {
+    std::vector<int32_t> chartOfFace(size_t(mesh_.FaceCount()), 0);
+    for (size_t i = 0; i < pieces_.size(); ++i) {
+      for (const int32_t face : pieces_[i].faces) chartOfFace[size_t(face)] = int32_t(i);
+    }
+    return SmoothBorders(mesh_, neighbours_, chartOfFace);
   }
 
   /// Both in `a`, if they can be laid flat together. Where they meet in several lines, as the
@@ -186,22 +226,18 @@ class Segmentation {
     if (a->faces.size() + b->faces.size() > kMostFaces) return false;
     const CommonLines lines = LinesBetween(mesh_, neighbours_, a->faces, b->faces);
     const double mostRectangle = kMostJoined * (a->rectangle + b->rectangle);
-    if (this->RectangleSideBySide(*a, *b, lines.longest) > kMostGuessed * mostRectangle) {
-      return false;
+    std::vector<Vec2d> places;
+    for (const auto& corners : this->Lay(*a, *b, lines).places) {
+      places.insert(places.end(), corners.begin(), corners.end());
     }
-    std::vector<int32_t> faces, beyond;
+    if (RectangleAbout(places) > kMostGuessed * mostRectangle) return false;
+    std::vector<int32_t> faces;
     std::merge(a->faces.begin(), a->faces.end(), b->faces.begin(), b->faces.end(),
                std::back_inserter(faces));
-    for (const int32_t corner : lines.others) beyond.push_back(neighbours_[size_t(corner)]);
-    for (const std::vector<int32_t>& side : {lines.others, beyond}) {
-      for (const int32_t corner : side) neighbours_[size_t(corner)] = -1;
-    }
-    Piece joined = this->TryToFlatten(std::move(faces), mostRectangle, refusal);
+    const std::vector<int32_t> beyond = this->Open(lines.others);
+    Piece joined = this->TryToFlatten(std::move(faces), {mostRectangle}, refusal);
     if (joined.faces.empty()) {
-      for (size_t i = 0; i < beyond.size(); ++i) {
-        neighbours_[size_t(lines.others[i])] = beyond[i];
-        neighbours_[size_t(beyond[i])] = lines.others[i];
-      }
+      for (size_t i = 0; i < beyond.size(); ++i) this->Close(lines.others[i], beyond[i]);
       return false;
     }
     *a = std::move(joined);
@@ -209,42 +245,88 @@ class Segmentation {
     return true;
   }
 
-  /// m2, of the smallest rectangle about both as they are, turned and moved so that they meet best
-  /// along a line of edges.
-  double RectangleSideBySide(const Piece& a, const Piece& b,
-                             const std::vector<int32_t>& line) const {
-    // The middles of the edges on both sides, as complex numbers.
-    using Complex = std::complex<double>;
-    const auto middle = [&](int32_t corner) {
-      const std::array<Vec2f, 3>& p = set_.places[size_t(corner / 3)];
-      const Vec2f sum = p[size_t(corner % 3)] + p[size_t((corner + 1) % 3)];
-      return Complex(double(sum.x) / 2, double(sum.y) / 2);
-    };
-    const auto along = [&](int32_t corner) {
-      const std::array<Vec2f, 3>& p = set_.places[size_t(corner / 3)];
-      const Vec2f edge = p[size_t((corner + 1) % 3)] - p[size_t(corner % 3)];
-      return Complex(double(edge.x), double(edge.y));
-    };
-    Complex here, there, turn;
-    for (const int32_t corner : line) {
-      const int32_t other = neighbours_[size_t(corner)];
-      here += middle(corner) / double(line.size());
-      there += middle(other) / double(line.size());
-      turn -= along(corner) * std::conj(along(other));
-    }
-    turn = std::abs(turn) > 0 ? turn / std::abs(turn) : 1;
+  /// m, of a series, so that a little more or less room changes nothing.
+  double LongestCutAnew() {
+    if (!(options_.longest > 0)) return std::numeric_limits<double>::max();
+    const double unit = std::sqrt(area_), step = std::log(kLengthStep);
+    const double power = std::floor(std::log(options_.longest / unit) / step);
+    const double longest = std::min(options_.longest, unit * std::exp(power * step));
+    set_.leastLongest = std::max(set_.leastLongest, longest);
+    set_.mostLongest = std::min(set_.mostLongest, unit * std::exp((power + 1) * step));
+    return longest;
+  }
 
-    std::vector<Vec2d> places;
-    for (const int32_t face : a.faces) {
-      for (const Vec2f& p : set_.places[size_t(face)]) places.emplace_back(p);
+  /// Both along a straight line, if what that makes can be laid flat and leaves less empty; neither
+  /// longer than both were, or than `longest`, m. Where they meet in several lines, all but the
+  /// longest stay cut within either.
+  bool TryToCutAnew(Piece* a, Piece* b, double longest) {
+    if (a->faces.size() + b->faces.size() > 2 * kMostFaces) return false;
+    if (a->Empty() + b->Empty() < kLeastEmpty * (a->area + b->area)) return false;
+    const CommonLines lines = LinesBetween(mesh_, neighbours_, a->faces, b->faces);
+    const SideBySide charts = this->Lay(*a, *b, lines);
+    const double most = kMostCutAnew * (a->rectangle + b->rectangle);
+    const std::vector<int32_t> beyond = this->Open(lines.others);
+    auto sides = CutAnew(neighbours_, charts, most);
+    Piece first, second;
+    if (!sides[0].empty()) {
+      const Places before = this->PlacesOf(charts.faces);
+      Limits limits = {most, std::max({a->extent, b->extent, longest})};
+      first = this->TryToFlatten(std::move(sides[0]), limits);
+      limits.rectangle -= first.rectangle;
+      if (!first.faces.empty()) second = this->TryToFlatten(std::move(sides[1]), limits);
+      if (second.faces.empty()) this->PutBack(charts.faces, before);
     }
-    for (const int32_t face : b.faces) {
-      for (const Vec2f& p : set_.places[size_t(face)]) {
-        const Complex moved = (Complex(double(p.x), double(p.y)) - there) * turn + here;
-        places.push_back({moved.real(), moved.imag()});
-      }
+    // What lies between them now is closed.
+    const bool isCut = !second.faces.empty();
+    for (size_t i = 0; i < beyond.size(); ++i) {
+      const auto isInFirst = [&](int32_t corner) {
+        return std::binary_search(first.faces.begin(), first.faces.end(), corner / 3);
+      };
+      if (isCut && isInFirst(lines.others[i]) == isInFirst(beyond[i])) continue;
+      this->Close(lines.others[i], beyond[i]);
     }
-    return RectangleAbout(places);
+    if (!isCut) return false;
+    *a = std::move(first);
+    *b = std::move(second);
+    return true;
+  }
+
+  SideBySide Lay(const Piece& a, const Piece& b, const CommonLines& lines) const {
+    return LaySideBySide({&a.faces, &b.faces}, set_.places, neighbours_, lines.longest);
+  }
+
+  /// Faces are no neighbours any more along some edges. Returns the corners beyond.
+  std::vector<int32_t> Open(const std::vector<int32_t>& corners) {
+    std::vector<int32_t> beyond;
+    for (const int32_t corner : corners) beyond.push_back(neighbours_[size_t(corner)]);
+    for (const std::vector<int32_t>* side : {&corners, &std::as_const(beyond)}) {
+      for (const int32_t corner : *side) neighbours_[size_t(corner)] = -1;
+    }
+    return beyond;
+  }
+  void Close(int32_t corner, int32_t beyond) {
+    neighbours_[size_t(corner)] = beyond;
+    neighbours_[size_t(beyond)] = corner;
+  }
+
+  /// Where some faces lie, to be put back.
+  struct Places {
+    std::vector<std::array<Vec2f, 3>> places;
+    std::vector<std::array<int32_t, 3>> corners;
+  };
+  Places PlacesOf(const std::vector<int32_t>& faces) const {
+    Places kept;
+    for (const int32_t face : faces) {
+      kept.places.push_back(set_.places[size_t(face)]);
+      kept.corners.push_back(set_.corners[size_t(face)]);
+    }
+    return kept;
+  }
+  void PutBack(const std::vector<int32_t>& faces, const Places& kept) {
+    for (size_t i = 0; i < faces.size(); ++i) {
+      set_.places[size_t(faces[i])] = kept.places[i];
+      set_.corners[size_t(faces[i])] = kept.corners[i];
+    }
   }
 
   /// The charts are the same for any longest extent on this side of both ends of `refusal`.
@@ -258,14 +340,16 @@ class Segmentation {
     }
   }
 
-  /// The chart of some faces, in a rectangle of `mostRectangle`, m2, at most; one without corners
-  /// where they cannot be laid flat. What it may be refused for, where its extent was looked at.
-  Piece TryToFlatten(std::vector<int32_t> faces, double mostRectangle, Refusal* refusal) {
+  /// The chart of some faces; one without corners where they cannot be laid flat. With `refusal`
+  /// the options tell how long it may be: what it may be refused for, where that was looked at.
+  Piece TryToFlatten(std::vector<int32_t> faces, const Limits& limits, Refusal* refusal = nullptr) {
     const ChartMesh mesh = MakeChartMesh(mesh_, neighbours_, faces);
     Piece piece;
     if (faces.size() == 1) {
       const std::vector<Vec2d> map = MapOfFace(mesh);
       piece.rectangle = RectangleAbout(map);
+      piece.area = AreaOf(mesh);
+      piece.extent = RefusalOf(mesh, map).extent;
       piece.chart.cornerCount = 3;
       piece.chart.isProjected = true;
       piece.faces = std::move(faces);
@@ -276,14 +360,19 @@ class Segmentation {
 
     // Seen along its normal, or else by a map that keeps angles.
     double stretch = 0;
-    const double area = AreaOf(mesh);
-    std::vector<Vec2d> map = this->Map(mesh, area, &piece.chart.isProjected, &stretch);
+    piece.area = AreaOf(mesh);
+    std::vector<Vec2d> map = this->Map(mesh, piece.area, &piece.chart.isProjected, &stretch);
     if (map.empty()) return {};
     piece.rectangle = RectangleAbout(map);
-    if (piece.rectangle > mostRectangle) return {};
-    *refusal = RefusalOf(mesh, map);
-    if (refusal->IsFor(LongestOf(options_))) return {};
-    if (options_.mostEmpty > 0 && piece.rectangle - area > options_.mostEmpty) return {};
+    if (piece.rectangle > limits.rectangle) return {};
+    const Refusal ends = RefusalOf(mesh, map);
+    piece.extent = ends.extent;
+    if (piece.extent > limits.extent) return {};
+    if (refusal) {
+      *refusal = ends;
+      if (ends.IsFor(LongestOf(options_))) return {};
+    }
+    if (options_.mostEmpty > 0 && piece.Empty() > options_.mostEmpty) return {};
     piece.chart.stretch = float(stretch);
     piece.chart.cornerCount = int32_t(mesh.positions.size());
     piece.faces = std::move(faces);
