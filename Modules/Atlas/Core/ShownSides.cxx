@@ -5,6 +5,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "Atlas/Core/SurfaceOpenings.h"
 #include "Atlas/Core/SurfaceSubset.h"
 #include "Common/Core/Error.h"
 #include "Scene/Core/MeshTopology.h"
@@ -12,13 +13,14 @@
 namespace lambert {
 namespace {
 
-/// Parts of the mean irradiance from which a second side shows: any, and one of a flat surface,
-/// which cannot be the inside of a solid.
-constexpr double kDimmest = 0.1, kDimmestFlat = 1e-4;
+/// Parts of the mean irradiance from which a second side shows: any, and one of a sheet.
+constexpr double kDimmest = 0.1, kDimmestOfSheet = 1e-4;
 /// Parts of a face and of its coordinates by which a triangle may lie beside it: rounding.
 constexpr float kOnFace = 1e-5f;
-/// Parts of its area that the vector area of a flat surface has at least.
+/// Parts of its area: what the vector area of a flat surface has at least, and the holes of a bent
+/// sheet. A cube that stands without a bottom has a fifth.
 constexpr float kFlat = 0.5f;
+constexpr double kOpen = 0.25;
 
 struct SideLight {
   double power = 0, area = 0;  ///< W, m2
@@ -119,12 +121,16 @@ std::vector<bool> FindSheets(const TriangleMesh& mesh, const ClusterTree& tree,
     all.power += brighter.power;
     all.area += brighter.area;
   }
+  const std::vector<SurfaceOpening> openings = FindOpenings(mesh);
   std::vector<bool> isSheet(tree.surfaceRoots.size(), false);
   for (size_t s = 0; s < lights.size(); ++s) {
+    const uint8_t dimmer = uint8_t(1 - BrighterSide(lights[s]));
+    if (openings[s].enclosedSide == dimmer) continue;
     const ClusterNode& root = tree.nodes[size_t(tree.surfaceRoots[s])];
     const bool isFlat = Length(root.vectorArea) > kFlat * root.area;
-    const double dimmer = lights[s][1 - BrighterSide(lights[s])].Mean();
-    isSheet[s] = dimmer > 0 && dimmer >= (isFlat ? kDimmestFlat : kDimmest) * all.Mean();
+    const bool isBent = openings[s].holes > kOpen && !openings[s].isRoom;
+    const double light = lights[s][dimmer].Mean();
+    isSheet[s] = light > 0 && light >= (isFlat || isBent ? kDimmestOfSheet : kDimmest) * all.Mean();
   }
   return isSheet;
 }

@@ -22,8 +22,9 @@ std::vector<uint8_t> BrighterSidesOfSurfaces(const TriangleMesh& mesh,
                                              const RadiositySolution& solution);
 
 /// By surface, whether both sides show: on the dimmer one there is at least 10 % of the mean
-/// irradiance of the brighter sides of all, or the surface is flat (vector area over half its area)
-/// and there is a ten-thousandth. What seeps into a solid shows less.
+/// irradiance of the brighter sides of all; or a ten-thousandth, if it is flat (vector area over
+/// half its area) or its piece is open (holes over a quarter of its area). Not the inside of a
+/// solid: light that the solution has there has seeped in.
 std::vector<bool> FindSheets(const TriangleMesh& mesh, const ClusterTree& tree,
                              const RadiositySolution& solution);
 

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "Atlas/Core/LightMap.h"
 #include "Atlas/Core/SurfaceRepresentation.h"
 #include "AtlasMeshes.h"
@@ -80,6 +83,63 @@ TEST(ShownSides, WhatIsLitFromOneSideStaysAsItIs) {
   const LitOnBothSides solid(Sphere(12), 1, 0.01f), sheet(FlatGrid(4), 1, 0);
   EXPECT_FALSE(ShowBothSides(solid.mesh, solid.tree, solid.solution));
   EXPECT_FALSE(ShowBothSides(sheet.mesh, sheet.tree, sheet.solution));
+}
+
+/// A cloth of 1 x 1 m that hangs down from its middle, as a tent.
+TriangleMesh Tent() {
+  return GridMesh(16, 16, [](double u, double v) {
+    const double beside = std::max(std::abs(u - 0.5), std::abs(v - 0.5));
+    return Vec3f(float(u), float(v), -2.2f * float(beside));
+  });
+}
+
+TEST(ShownSides, TheDimSideOfABentSheetShows) {
+  const LitOnBothSides tent(Tent(), 1, 0.01f);
+  const ClusterNode& root = tent.tree.nodes[size_t(tent.tree.surfaceRoots[0])];
+  EXPECT_LT(Length(root.vectorArea), 0.45f * root.area);
+  ExpectLightOfEachSide(tent, 1, 0.01f);
+}
+
+// As the blocks of a Cornell box.
+TEST(ShownSides, ABlockWithoutABottomIsNoSheet) {
+  TriangleMesh cube;
+  for (const float z : {0.f, 1.f}) {
+    for (const Vec3f& p : {Vec3f(0, 0, z), Vec3f(1, 0, z), Vec3f(1, 1, z), Vec3f(0, 1, z)}) {
+      cube.positions.push_back(p);
+    }
+  }
+  cube.triangles = {{4, 5, 6}, {4, 6, 7}};
+  for (int32_t i = 0; i < 4; ++i) {
+    const int32_t next = (i + 1) % 4;
+    cube.triangles.push_back({i, next, next + 4});
+    cube.triangles.push_back({i, next + 4, i + 4});
+  }
+  cube.Complete();
+  const LitOnBothSides block(cube, 1, 0.04f);
+  EXPECT_FALSE(ShowBothSides(block.mesh, block.tree, block.solution));
+}
+
+TEST(ShownSides, TheInsideOfASolidNeverShows) {
+  TriangleMesh mesh = FlatGrid(2);
+  for (Vec3f& p : mesh.positions) p = p * 40.f - Vec3f(0, 0, 20);
+  const TriangleMesh ball = Sphere(12);
+  const int32_t first = int32_t(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), ball.positions.begin(), ball.positions.end());
+  for (const auto& t : ball.triangles) {
+    mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  TriangleMesh scene;
+  scene.positions = mesh.positions;
+  scene.triangles = mesh.triangles;
+  scene.Complete();
+  // Half of the light has seeped in.
+  const LitOnBothSides lit(scene, 1, 0.5f);
+  const std::vector<bool> isSheet = FindSheets(lit.mesh, lit.tree, lit.solution);
+  ASSERT_EQ(isSheet.size(), 2u);
+  for (size_t s = 0; s < 2; ++s) {
+    const ClusterNode& root = lit.tree.nodes[size_t(lit.tree.surfaceRoots[s])];
+    EXPECT_EQ(isSheet[s], root.faceCount == 8) << s;
+  }
 }
 
 TEST(ShownSides, ASideEmitsByItself) {
