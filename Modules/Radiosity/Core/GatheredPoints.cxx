@@ -304,21 +304,29 @@ GatheredPoints::Scatter GatheredPoints::ScatterOfNew(int32_t first,
     const double light = std::min(lightOf(r), kBlazing * mean);
     meanSquare += share(r) * light * light;
   }
-  for (size_t i = size_t(first); i < records_.size(); ++i) {
-    const Record& r = records_[i];
-    if (r.isProbe) continue;
-    // If each asked itself alone, those that happened to find nothing would stay dark.
+
+  // Rays of a point scatter as those of its neighbours do, where that is more: if each asked itself
+  // alone, those that happened to find nothing would stay dark.
+  std::vector<float> ofRay(records_.size());
+  for (size_t i = 0; i < records_.size(); ++i) ofRay[i] = records_[i].bounced.ofRay;
+  ParallelForEach(int64_t(records_.size()) - first, 256, [&](int64_t i) {
+    const int32_t index = first + int32_t(i);
+    const Record& r = records_[size_t(index)];
+    if (r.isProbe) return;
+    const int32_t* const begin = neighbours.begin(index);
+    const int32_t* const end = neighbours.end(index);
     double around = 0;
-    const int32_t* const begin = neighbours.begin(int32_t(i));
-    const int32_t* const end = neighbours.end(int32_t(i));
     for (const int32_t* other = begin; other != end; ++other) {
-      around += double(records_[size_t(*other)].bounced.variance) / double(end - begin);
+      around += double(ofRay[size_t(*other)]) / double(end - begin);
     }
-    const double variance = std::max(around, double(r.bounced.variance)), light = lightOf(r);
-    scatter.noise[i] = share(r) * variance * ErrorWeight(light, mean, meanSquare);
+    const double own = double(r.bounced.ofRay), light = lightOf(r);
+    const double scatters =
+        double(r.bounced.variance) * (own > 0 ? std::max(1.0, around / own) : 1);
+    scatter.noise[size_t(index)] = share(r) * scatters * ErrorWeight(light, mean, meanSquare);
     const double unseen = kBlotch * std::max(light, mean);
-    scatter.growth[i] = std::min(double(kMostGrowth), std::max(1.0, variance / (unseen * unseen)));
-  }
+    scatter.growth[size_t(index)] =
+        std::min(double(kMostGrowth), std::max(1.0, scatters / (unseen * unseen)));
+  });
   return scatter;
 }
 

@@ -154,7 +154,8 @@ FilteredIrradiance FilterIrradiance(const std::vector<IrradianceSample>& samples
     value.irradiance = value.irradiance * apart + shared.irradiance * (1 - apart);
     value.squareOfWeights = value.squareOfWeights * apart + shared.squareOfWeights * (1 - apart);
   }
-  return {value.irradiance, varianceOfRay(value.irradiance) * value.squareOfWeights};
+  const float ofRay = varianceOfRay(value.irradiance);
+  return {value.irradiance, ofRay * value.squareOfWeights, ofRay};
 }
 
 }  // namespace lambert

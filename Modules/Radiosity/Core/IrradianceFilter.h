@@ -24,6 +24,7 @@ struct IrradianceSample {
 struct FilteredIrradiance {
   Spectrum irradiance;  ///< W/m2
   float variance = 0;   ///< of it, sum of the bands, (W/m2)^2
+  float ofRay = 0;      ///< that of one ray, as all neighbours tell
 };
 
 /// Of each sample those that lie nearest and look the same way, itself left out, nearest first.
