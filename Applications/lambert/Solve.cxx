@@ -5,6 +5,7 @@
 
 #include "Commands.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/FileEnding.h"
 #include "Common/Core/OutputFile.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Timer.h"

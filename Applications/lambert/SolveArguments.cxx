@@ -7,6 +7,7 @@
 
 #include "ArgumentChecks.h"
 #include "Common/Core/CollectionFile.h"
+#include "Common/Core/FileEnding.h"
 #include "Engine/LitModelFile.h"
 #include "Engine/ObjFile.h"
 #include "Engine/PolyDataFile.h"

@@ -1,10 +1,10 @@
 #include "LitModelFile.h"
 
+#include "Common/Core/FileEnding.h"
 #include "Common/Core/OutputFile.h"
 #include "GltfFile.h"
 #include "HtmlFile.h"
 #include "ObjFile.h"
-#include "SolutionFile.h"
 
 namespace lambert {
 bool IsLitModelFileName(const std::string& fileName) {

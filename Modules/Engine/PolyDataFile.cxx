@@ -1,9 +1,9 @@
 #include "PolyDataFile.h"
 
 #include "Common/Core/CollectionFile.h"
+#include "Common/Core/FileEnding.h"
 #include "Common/Core/OutputFile.h"
 #include "Scene/vtkScenePieces.h"
-#include "SolutionFile.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkXMLPolyDataWriter.h"

@@ -1,5 +1,6 @@
 #include "SolutionFile.h"
 
+#include "Common/Core/FileEnding.h"
 #include "Common/Core/OutputFile.h"
 #include "PolyDataFile.h"
 #include "Scene/vtkSceneAdapter.h"
@@ -8,12 +9,10 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <numeric>
 
 namespace lambert {
 namespace {
-namespace fs = std::filesystem;
 
 void WriteMesh(const RadiositySolution& solution, const Scene& scene, const std::string& fileName) {
   vtkNew<vtkPolyData> data;
@@ -75,13 +74,6 @@ void WritePly(const RadiositySolution& solution, const std::string& fileName,
   WriteOutput(fileName, file);
 }
 }  // namespace
-
-std::string FileEnding(const std::string& fileName) {
-  std::string ending = fs::path(fileName).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 bool IsSolutionFileName(const std::string& fileName) {
   return IsPolyDataFileName(fileName) || FileEnding(fileName) == ".ply";

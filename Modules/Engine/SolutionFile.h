@@ -10,9 +10,6 @@
 #include <string>
 
 namespace lambert {
-/// The ending of a file name in small letters, with its dot: ".vtp".
-LAMBERTENGINE_EXPORT std::string FileEnding(const std::string& fileName);
-
 /// True for the names that WriteSolution can write: ending in .vtp, .vtpc or .ply, in any case.
 LAMBERTENGINE_EXPORT bool IsSolutionFileName(const std::string& fileName);
 

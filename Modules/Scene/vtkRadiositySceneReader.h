@@ -46,7 +46,7 @@ class LAMBERTSCENE_EXPORT vtkRadiositySceneReader : public vtkPolyDataAlgorithm 
   vtkBooleanMacro(TwoSidedEmitters, bool);
   ///@}
   ///@{ Transparent materials block and reflect; default off: they are left out, so that windows let
-  ///light in.
+  /// light in.
   void SetOpaqueGlass(bool on);
   bool GetOpaqueGlass();
   vtkBooleanMacro(OpaqueGlass, bool);
@@ -83,19 +83,18 @@ class LAMBERTSCENE_EXPORT vtkRadiositySceneReader : public vtkPolyDataAlgorithm 
   vtkBooleanMacro(FixEmitters, bool);
   ///@}
   ///@{ Angle in degrees, [0, 180], up to which normals are smooth where the file has none;
-  ///default 30.
+  /// default 30.
   void SetFeatureAngle(double degrees);
   double GetFeatureAngle();
   ///@}
 
   ///@{ Radiance (R, G, B) of a uniform sky in W/(m2 sr), added to the file's lights; default 0:
-  ///none.
+  /// none.
   vtkSetVector3Macro(Sky, double);
   vtkGetVector3Macro(Sky, double);
   ///@}
   ///@{ Changes by name: "MATERIAL:reflectance=R,G,B", "MATERIAL:emission=R,G,B" (radiance, W/(m2
-  ///sr)) or
-  /// "MATERIAL:two-sided"; several joined by '|'.
+  /// sr)) or "MATERIAL:two-sided"; several joined by '|'.
   void AddMaterialSetting(const std::string& setting);
   void ClearMaterialSettings();
   int GetNumberOfMaterialSettings();

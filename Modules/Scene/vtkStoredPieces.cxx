@@ -2,6 +2,7 @@
 
 #include "Common/Core/CollectionFile.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/FileEnding.h"
 #include "vtkCommand.h"
 #include "vtkExecutive.h"
 #include "vtkNew.h"
@@ -87,10 +88,7 @@ bool HasKnownTypes(const std::string& file) {
   return true;
 }
 
-bool IsVtp(const std::string& file) {
-  return vtksys::SystemTools::LowerCase(vtksys::SystemTools::GetFilenameLastExtension(file)) ==
-         ".vtp";
-}
+bool IsVtp(const std::string& file) { return FileEnding(file) == ".vtp"; }
 
 void RequireReadable(const std::string& file) {
   if (!vtksys::SystemTools::TestFileAccess(file, vtksys::TEST_FILE_READ | vtksys::TEST_FILE_OK)) {

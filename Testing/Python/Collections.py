@@ -1,14 +1,7 @@
 """What the tests of .vtpc files share: VTK's own reader, and data as they compare."""
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
-from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader, vtkXMLPolyDataReader
-
-
-def mesh_of(name):
-    reader = vtkXMLPolyDataReader()
-    reader.SetFileName(name)
-    reader.Update()
-    return reader.GetOutput()
+from vtkmodules.vtkIOXML import vtkXMLPartitionedDataSetCollectionReader
 
 
 def pieces_of(name):

@@ -5,8 +5,9 @@ import shutil
 import signal
 import subprocess
 
-from Collections import mesh_of, pieces_of
+from Collections import pieces_of
 from CommandLine import CORNELL_BOX, LAMBERT, fails, run, temporary
+from PolyDataFile import mesh_of
 from vtkmodules.vtkCommonDataModel import vtkCellArray
 from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
 

@@ -4,8 +4,9 @@ import os
 import subprocess
 
 import numpy as np
-from Collections import arrays_of, corners_of, mesh_of, pieces_of
+from Collections import arrays_of, corners_of, pieces_of
 from CommandLine import CORNELL_BOX, DATA, LAMBERT, run, solve, temporary, write_hdr
+from PolyDataFile import mesh_of
 from vtkmodules.vtkCommonCore import vtkFloatArray, vtkIntArray, vtkPoints, vtkStringArray
 from vtkmodules.vtkCommonDataModel import (vtkCellArray, vtkCompositeDataSet, vtkPartitionedDataSet,
                                            vtkPartitionedDataSetCollection, vtkPolyData)

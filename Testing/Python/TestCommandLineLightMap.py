@@ -3,9 +3,9 @@ import json
 
 import numpy as np
 from CommandLine import CORNELL_BOX, DATA, run, temporary
+from PolyDataFile import mesh_of
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOImage import vtkHDRReader, vtkPNGReader
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 SIZE = 256
 solved, mapped, report = temporary("map-solved.vtp"), temporary("map.vtp"), temporary("map.json")
@@ -26,13 +26,6 @@ def page_of(name):
     image = reader.GetOutput()
     width, height, _ = image.GetDimensions()
     return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, 3)
-
-
-def mesh_of(name):
-    reader = vtkXMLPolyDataReader()
-    reader.SetFileName(name)
-    reader.Update()
-    return reader.GetOutput()
 
 
 # Every texel is lit by something; a reader of floats finds the light that a probe reads at the middle of each triangle.

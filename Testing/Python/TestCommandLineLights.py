@@ -3,9 +3,9 @@ import math
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from CommandLine import CORNELL_BOX, fails, solve, temporary, write_hdr
+from PolyDataFile import mesh_of
 
 out = temporary("court.vtp")
 
@@ -26,10 +26,7 @@ def write_court(name, up):
 
 def floor_light(name, up):
     """How far east the points in the middle of the floor's upper side lie, and their irradiance."""
-    reader = vtkXMLPolyDataReader()
-    reader.SetFileName(name)
-    reader.Update()
-    mesh = reader.GetOutput()
+    mesh = mesh_of(name)
     points, normals = vtk_to_numpy(mesh.GetPoints().GetData()), vtk_to_numpy(mesh.GetPointData().GetNormals())
     irradiance = vtk_to_numpy(mesh.GetPointData().GetArray("Irradiance"))
     axis = "xyz".index(up)

@@ -3,18 +3,15 @@ import os
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from CommandLine import CORNELL_BOX, fails, run, solve, temporary
+from PolyDataFile import mesh_of
 
 out = temporary("box.vtp")
 
 
 def irradiance(name):
-    reader = vtkXMLPolyDataReader()
-    reader.SetFileName(name)
-    reader.Update()
-    return vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("Irradiance"))
+    return vtk_to_numpy(mesh_of(name).GetPointData().GetArray("Irradiance"))
 
 
 # The default is hierarchical, and says so.

@@ -2,10 +2,10 @@
 import numpy as np
 from CommandLine import DATA, solve, temporary
 from GltfModel import GltfModel
+from PolyDataFile import mesh_of
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 from vtkmodules.vtkIOImage import vtkHDRReader, vtkPNGReader
-from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
 import lambert
@@ -14,13 +14,6 @@ SIZE, WALL, PARTITION = 512, 2.5, "Partition"
 ROOMS = f"{DATA}/TwoRooms/TwoRooms.obj"
 mapped, solved, glb, obj = (temporary(n) for n in ("map.vtp", "solved.vtp", "rooms.glb", "rooms.obj"))
 common = ROOMS, "--error", "0.1", "--lightmap", mapped, "--page-size", SIZE, "--tone", "linear", "--exposure", "-2"
-
-
-def mesh_of(name):
-    reader = vtkXMLPolyDataReader()
-    reader.SetFileName(name)
-    reader.Update()
-    return reader.GetOutput()
 
 
 def faces_of(mesh):

@@ -26,7 +26,7 @@ struct Piece {
 /// Vector areas of border lines: closed lines of edges that meet in points.
 void AddHoles(const TriangleMesh& mesh, const MeshTopology& topology, std::vector<Piece>* pieces) {
   DisjointSets lines{mesh.positions.size()};
-  std::unordered_map<int32_t, Vec3d> areas;
+  std::map<int32_t, Vec3d> areas;
   std::unordered_map<int32_t, int32_t> pieceOfLine;
   const auto forEachBorder = [&](const auto& visit) {
     for (size_t edge = 0; edge < topology.neighbor.size(); ++edge) {

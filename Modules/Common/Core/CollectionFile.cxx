@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/FileEnding.h"
 #include "Common/Core/OutputFile.h"
 
 namespace lambert {
@@ -173,11 +174,7 @@ std::string IndexOf(const std::string& fileName, int64_t write,
 
 }  // namespace
 
-bool IsCollectionFileName(const std::string& fileName) {
-  std::string ending = fs::path(fileName).extension().string();
-  for (char& c : ending) c = char(std::tolower(uint8_t(c)));
-  return ending == ".vtpc";
-}
+bool IsCollectionFileName(const std::string& fileName) { return FileEnding(fileName) == ".vtpc"; }
 
 std::string FolderOfPieces(const std::string& fileName) {
   return (fs::path(fileName).parent_path() / StemOf(fileName)).string();

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/FileEnding.h"
 
 namespace lambert {
 
@@ -182,11 +183,9 @@ bool HasPlyBytes(const PlyHeader& header, std::string_view body) {
 }  // namespace
 
 std::string FileExtension(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  if (!extension.empty()) extension.erase(0, 1);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return extension;
+  std::string ending = FileEnding(path);
+  if (!ending.empty()) ending.erase(0, 1);
+  return ending;
 }
 
 std::string LoadFile(const std::string& path) {

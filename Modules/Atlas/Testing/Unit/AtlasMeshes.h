@@ -18,17 +18,42 @@ struct Clustered {
   }
 };
 
+/// A box without its lid, in metres, seen from outside; `lid` closes it.
+inline TriangleMesh Box(const Vec3f& size, bool lid) {
+  TriangleMesh box;
+  for (const float z : {0.f, size.z}) {
+    for (const Vec3f& p :
+         {Vec3f(0, 0, z), Vec3f(size.x, 0, z), Vec3f(size.x, size.y, z), Vec3f(0, size.y, z)}) {
+      box.positions.push_back(p);
+    }
+  }
+  box.triangles = {{0, 2, 1}, {0, 3, 2}};
+  for (int32_t i = 0; i < 4; ++i) {
+    const int32_t next = (i + 1) % 4;
+    box.triangles.push_back({i, next, next + 4});
+    box.triangles.push_back({i, next + 4, i + 4});
+  }
+  if (lid) {
+    box.triangles.push_back({4, 5, 6});
+    box.triangles.push_back({4, 6, 7});
+  }
+  return box;
+}
+
+/// Adds points and triangles of another mesh, moved.
+inline void Append(const TriangleMesh& other, const Vec3f& offset, TriangleMesh* mesh) {
+  const int32_t first = int32_t(mesh->positions.size());
+  for (const Vec3f& p : other.positions) mesh->positions.push_back(p + offset);
+  for (const auto& t : other.triangles) {
+    mesh->triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+}
+
 /// Two flat grids of `cells` across, one 5 m above the other.
 inline TriangleMesh TwoFlatGrids(int cells) {
   TriangleMesh mesh;
   const TriangleMesh plane = FlatGrid(cells);
-  for (const float height : {0.f, 5.f}) {
-    const int32_t first = int32_t(mesh.positions.size());
-    for (const Vec3f& p : plane.positions) mesh.positions.push_back(p + Vec3f(0, 0, height));
-    for (const auto& t : plane.triangles) {
-      mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-    }
-  }
+  for (const float height : {0.f, 5.f}) Append(plane, {0, 0, height}, &mesh);
   mesh.Complete();
   return mesh;
 }

@@ -13,19 +13,12 @@ namespace lambert {
 namespace {
 
 TriangleMesh Mixed() {
-  TriangleMesh mesh = Sphere(16);
-  for (TriangleMesh other : {Torus(30, 15), FlatGrid(5), SliverGrid(8)}) {
-    const int32_t offset = int32_t(mesh.positions.size());
-    for (const Vec3f& p : other.positions) mesh.positions.push_back(p + Vec3f(float(offset), 0, 0));
-    for (const auto& t : other.triangles) {
-      mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
-    }
+  TriangleMesh mesh;
+  for (const TriangleMesh& other : {Sphere(16), Torus(30, 15), FlatGrid(5), SliverGrid(8)}) {
+    Append(other, {float(mesh.positions.size()), 0, 0}, &mesh);
   }
-  TriangleMesh all;
-  all.positions = mesh.positions;
-  all.triangles = mesh.triangles;
-  all.Complete();
-  return all;
+  mesh.Complete();
+  return mesh;
 }
 
 /// Every texel that a triangle touches, by page and place, with its chart.

@@ -102,35 +102,17 @@ TEST(ShownSides, TheDimSideOfABentSheetShows) {
 
 // As the blocks of a Cornell box.
 TEST(ShownSides, ABlockWithoutABottomIsNoSheet) {
-  TriangleMesh cube;
-  for (const float z : {0.f, 1.f}) {
-    for (const Vec3f& p : {Vec3f(0, 0, z), Vec3f(1, 0, z), Vec3f(1, 1, z), Vec3f(0, 1, z)}) {
-      cube.positions.push_back(p);
-    }
-  }
-  cube.triangles = {{4, 5, 6}, {4, 6, 7}};
-  for (int32_t i = 0; i < 4; ++i) {
-    const int32_t next = (i + 1) % 4;
-    cube.triangles.push_back({i, next, next + 4});
-    cube.triangles.push_back({i, next + 4, i + 4});
-  }
+  TriangleMesh cube = Box({1, 1, 1}, false);
   cube.Complete();
   const LitOnBothSides block(cube, 1, 0.04f);
   EXPECT_FALSE(ShowBothSides(block.mesh, block.tree, block.solution));
 }
 
 TEST(ShownSides, TheInsideOfASolidNeverShows) {
-  TriangleMesh mesh = FlatGrid(2);
-  for (Vec3f& p : mesh.positions) p = p * 40.f - Vec3f(0, 0, 20);
-  const TriangleMesh ball = Sphere(12);
-  const int32_t first = int32_t(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), ball.positions.begin(), ball.positions.end());
-  for (const auto& t : ball.triangles) {
-    mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  }
-  TriangleMesh scene;
-  scene.positions = mesh.positions;
-  scene.triangles = mesh.triangles;
+  TriangleMesh floor = FlatGrid(2), scene;
+  for (Vec3f& p : floor.positions) p *= 40.f;
+  Append(floor, {0, 0, -20}, &scene);
+  Append(Sphere(12), {}, &scene);
   scene.Complete();
   // Half of the light has seeped in.
   const LitOnBothSides lit(scene, 1, 0.5f);

@@ -7,37 +7,11 @@
 namespace lambert {
 namespace {
 
-/// A box without its lid, in metres, seen from outside; `lid` closes it.
-TriangleMesh Box(const Vec3f& size, bool lid) {
-  TriangleMesh box;
-  for (const float z : {0.f, size.z}) {
-    for (const Vec3f& p :
-         {Vec3f(0, 0, z), Vec3f(size.x, 0, z), Vec3f(size.x, size.y, z), Vec3f(0, size.y, z)}) {
-      box.positions.push_back(p);
-    }
-  }
-  box.triangles = {{0, 2, 1}, {0, 3, 2}};
-  for (int32_t i = 0; i < 4; ++i) {
-    const int32_t next = (i + 1) % 4;
-    box.triangles.push_back({i, next, next + 4});
-    box.triangles.push_back({i, next + 4, i + 4});
-  }
-  if (lid) {
-    box.triangles.push_back({4, 5, 6});
-    box.triangles.push_back({4, 6, 7});
-  }
-  return box;
-}
-
 /// Adds another mesh, moved; its faces have the next surface number.
 void Add(const TriangleMesh& other, const Vec3f& offset, TriangleMesh* mesh) {
-  const int32_t first = int32_t(mesh->positions.size());
   const int32_t surface = mesh->surfaceId.empty() ? 0 : mesh->surfaceId.back() + 1;
-  for (const Vec3f& p : other.positions) mesh->positions.push_back(p + offset);
-  for (const auto& t : other.triangles) {
-    mesh->triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-    mesh->surfaceId.push_back(surface);
-  }
+  Append(other, offset, mesh);
+  mesh->surfaceId.resize(mesh->triangles.size(), surface);
 }
 
 std::vector<SurfaceOpening> OpeningsOf(TriangleMesh mesh) {
