@@ -3,33 +3,12 @@
 #include "vtkShaderProperty.h"
 #include "vtkUniforms.h"
 
+#include <tuple>
+
 namespace lambert {
 namespace {
-const char* const kVertexDeclarations = R"(
-in vec3 vertexRadiosityMC;
-in vec3 vertexIrradianceMC;
-in vec3 reflectanceMC;
-in vec2 lightMapCoordsMC;
-out vec3 vertexRadiosityVSOutput;
-out vec3 vertexIrradianceVSOutput;
-out vec3 reflectanceVSOutput;
-out vec2 lightMapCoordsVSOutput;
-)";
-
-const char* const kVertexCode = R"(
-  vertexRadiosityVSOutput = vertexRadiosityMC;
-  vertexIrradianceVSOutput = vertexIrradianceMC;
-  reflectanceVSOutput = reflectanceMC;
-  lightMapCoordsVSOutput = lightMapCoordsMC;
-)";
-
 // Core/ToneCurve and Core/ToneMapping, once more.
-const char* const kFragmentDeclarations = R"(
-in vec3 vertexRadiosityVSOutput;
-in vec3 vertexIrradianceVSOutput;
-in vec3 reflectanceVSOutput;
-in vec2 lightMapCoordsVSOutput;
-
+const char* const kTransferCurves = R"(
 vec3 LinearFromSrgb(vec3 code)
 {
   vec3 power = pow((code + 0.055) / 1.055, vec3(2.4));
@@ -40,36 +19,50 @@ vec3 SrgbFromLinear(vec3 light)
   vec3 power = 1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055;
   return mix(power, 12.92 * light, lessThanEqual(light, vec3(0.0031308)));
 }
+)";
+
+const char* ToneCurveCode(ToneCurve curve) {
+  switch (curve) {
+    case ToneCurve::Photographic:
+      return R"(
+vec3 ToneCurve(vec3 keyed)
+{
+  float luminance = dot(keyed, vec3(0.2126, 0.7152, 0.0722));
+  return keyed * (1.0 + luminance / (fullWhite * fullWhite)) / (1.0 + luminance);
+}
+)";
+    case ToneCurve::Linear:
+      return R"(
+vec3 ToneCurve(vec3 keyed) { return keyed; }
+)";
+    case ToneCurve::Filmic:
+      return R"(
 vec3 FilmicResponse(vec3 x)
 {
   return (x * (0.15 * x + 0.05) + 0.004) / (x * (0.15 * x + 0.5) + 0.06) - 0.02 / 0.3;
 }
+vec3 ToneCurve(vec3 keyed)
+{
+  return FilmicResponse(2.0 * keyed) / FilmicResponse(vec3(2.0 * fullWhite));
+}
+)";
+  }
+  return "";
+}
+
+const char* const kDisplayed = R"(
 vec3 Displayed(vec3 radiosity)
 {
   vec3 keyed = exposureScale * max(radiosity, vec3(0.0));
-  float luminance = dot(keyed, vec3(0.2126, 0.7152, 0.0722));
-  vec3 display = keyed;
-  if (toneCurve == 0)
-  {
-    display = keyed * (1.0 + luminance / (fullWhite * fullWhite)) / (1.0 + luminance);
-  }
-  if (toneCurve == 2)
-  {
-    display = FilmicResponse(2.0 * keyed) / FilmicResponse(vec3(2.0 * fullWhite));
-  }
-  return SrgbFromLinear(clamp(display, 0.0, 1.0));
+  return SrgbFromLinear(clamp(ToneCurve(keyed), 0.0, 1.0));
 }
 )";
 
-// Trilinear as far as charts are kept apart; places outside of the map are black (thesis 6.5.1).
+// Places outside of the map are black (thesis 6.5.1).
 const char* const kLightMapLookup = R"(
 vec3 LightOfMap()
 {
-  vec2 size = vec2(textureSize(lightMap, 0));
-  vec2 across = dFdx(lightMapCoordsVSOutput) * size, along = dFdy(lightMapCoordsVSOutput) * size;
-  float level = 0.5 * log2(max(1e-12, max(dot(across, across), dot(along, along))));
-  level = clamp(level, 0.0, float(lightMapLevels));
-  return step(0.0, lightMapCoordsVSOutput.x) * textureLod(lightMap, lightMapCoordsVSOutput, level).rgb;
+  return step(0.0, lightMapCoordsVSOutput.x) * texture(lightMap, lightMapCoordsVSOutput).rgb;
 }
 )";
 
@@ -91,19 +84,21 @@ vec3 Mirrored(vec3 normal, vec3 place)
 /// What VTK puts at the tag, then ours.
 std::string Behind(const std::string& tag, const std::string& code) { return tag + "\n" + code; }
 
-/// Radiosity at the fragment, displayed, and the specular light that VTK has worked out.
+/// Radiosity at the fragment, displayed, and the specular light that VTK has worked out. Under a
+/// base texture the light of points passes it, as that of the map does.
 std::string FragmentCode(const RadiosityShaderParts& parts) {
-  std::string base = "reflectanceVSOutput";
-  if (!parts.baseTexture.empty()) {
-    base = "texture(" + parts.baseTexture + ", tcoordVCVSOutput).rgb";
-    base = parts.isBaseEncoded ? "LinearFromSrgb(" + base + ")" : base;
-  }
   const std::string map = parts.lightMap ? "LightOfMap()" : "vec3(0.0)";
-  return "  vec3 radiosity = vertexRadiosityVSOutput + " + base +
-         " * (vertexIrradianceVSOutput + " + map +
-         ");\n"
-         "  gl_FragData[0] = vec4(linearLight == 1 ? radiosity : Displayed(radiosity) + "
-         "specularLight, opacity);\n";
+  std::string reflected = parts.lightMap ? "reflectanceVSOutput * " + map : map;
+  if (!parts.baseTexture.empty()) {
+    const std::string texel = "texture(" + parts.baseTexture + ", tcoordVCVSOutput).rgb";
+    const std::string base = parts.isBaseEncoded ? "LinearFromSrgb(" + texel + ")" : texel;
+    reflected = base + " * (vertexIrradianceVSOutput + " + map + ")";
+  }
+  const std::string shown = parts.isLinear ? "radiosity" : "Displayed(radiosity) + specularLight";
+  return "  vec3 radiosity = vertexRadiosityVSOutput + " + reflected +
+         ";\n"
+         "  gl_FragData[0] = vec4(" +
+         shown + ", opacity);\n";
 }
 
 /// Behind the light of lamps: what the surface mirrors, as its specular colour tells.
@@ -120,6 +115,24 @@ std::string SpecularCode(const RadiosityShaderParts& parts) {
 }
 }  // namespace
 
+bool operator==(const RadiosityShaderParts& a, const RadiosityShaderParts& b) {
+  return std::tie(a.curve, a.isLinear, a.isSpecular, a.lightMap, a.baseTexture, a.isBaseEncoded,
+                  a.isPhysicallyBased, a.environment, a.isEnvironmentEncoded) ==
+         std::tie(b.curve, b.isLinear, b.isSpecular, b.lightMap, b.baseTexture, b.isBaseEncoded,
+                  b.isPhysicallyBased, b.environment, b.isEnvironmentEncoded);
+}
+
+std::vector<RadiosityAttribute> AttributesOf(const RadiosityShaderParts& parts) {
+  std::vector<RadiosityAttribute> read = {{"vertexRadiosity", "vec3", "Shown.VertexRadiosity"}};
+  if (!parts.baseTexture.empty()) {
+    read.push_back({"vertexIrradiance", "vec3", "Shown.VertexIrradiance"});
+  } else if (parts.lightMap) {
+    read.push_back({"reflectance", "vec3", "Shown.Reflectance"});
+  }
+  if (parts.lightMap) read.push_back({"lightMapCoords", "vec2", "Shown.LightMapTCoords"});
+  return read;
+}
+
 void ReplaceDiffuseLight(const RadiosityShaderParts& parts, vtkShaderProperty* shader) {
   shader->ClearAllShaderReplacements();
   const auto addToFragments = [&](const char* tag, const std::string& code) {
@@ -127,11 +140,19 @@ void ReplaceDiffuseLight(const RadiosityShaderParts& parts, vtkShaderProperty* s
   };
 
   // What the points bring.
-  shader->AddVertexShaderReplacement("//VTK::Normal::Dec", true,
-                                     Behind("//VTK::Normal::Dec", kVertexDeclarations), false);
+  std::string into, through, out;
+  for (const auto& [name, type, array] : AttributesOf(parts)) {
+    const std::string declared = std::string(type) + " " + name;
+    into += "in " + declared + "MC;\nout " + declared + "VSOutput;\n";
+    through += std::string("  ") + name + "VSOutput = " + name + "MC;\n";
+    out += "in " + declared + "VSOutput;\n";
+  }
+  shader->AddVertexShaderReplacement("//VTK::Normal::Dec", true, Behind("//VTK::Normal::Dec", into),
+                                     false);
   shader->AddVertexShaderReplacement("//VTK::Normal::Impl", true,
-                                     Behind("//VTK::Normal::Impl", kVertexCode), false);
-  addToFragments("//VTK::Normal::Dec", kFragmentDeclarations);
+                                     Behind("//VTK::Normal::Impl", through), false);
+  addToFragments("//VTK::Normal::Dec",
+                 out + kTransferCurves + ToneCurveCode(parts.curve) + kDisplayed);
   addToFragments("//VTK::TMap::Dec", std::string(parts.lightMap ? kLightMapLookup : "") +
                                          (parts.environment ? kEnvironmentLookup : ""));
 
@@ -144,14 +165,15 @@ void ReplaceDiffuseLight(const RadiosityShaderParts& parts, vtkShaderProperty* s
     shader->AddFragmentShaderReplacement("DiffuseLambert(albedo)", false, "vec3(0.0)", true);
     shader->AddFragmentShaderReplacement("irradiance * albedo", false, "vec3(0.0)", true);
   }
-  addToFragments("//VTK::Light::Impl", SpecularCode(parts));
+  if (parts.isSpecular) {
+    addToFragments("//VTK::Light::Impl", SpecularCode(parts));
+  } else {
+    shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true,
+                                         "  const vec3 specularLight = vec3(0.0);\n", false);
+  }
 
   // Behind VTK's own textures: they would tint the specular light.
   addToFragments("//VTK::TCoord::Impl", FragmentCode(parts));
-}
-
-void SetLightMapLevels(int last, vtkShaderProperty* shader) {
-  shader->GetFragmentCustomUniforms()->SetUniformi("lightMapLevels", last);
 }
 
 void SetEnvironmentView(const EnvironmentView& view, vtkShaderProperty* shader) {
@@ -167,11 +189,9 @@ void SetEnvironmentView(const EnvironmentView& view, vtkShaderProperty* shader) 
   uniforms->SetUniformf("environmentPower", view.specularPower);
 }
 
-void SetExposure(const ToneMapping& toneMapping, bool linear, vtkShaderProperty* shader) {
+void SetExposure(const ToneMapping& toneMapping, vtkShaderProperty* shader) {
   vtkUniforms* uniforms = shader->GetFragmentCustomUniforms();
   uniforms->SetUniformf("exposureScale", static_cast<float>(toneMapping.Scale()));
   uniforms->SetUniformf("fullWhite", static_cast<float>(toneMapping.White()));
-  uniforms->SetUniformi("toneCurve", static_cast<int>(toneMapping.Curve()));
-  uniforms->SetUniformi("linearLight", linear ? 1 : 0);
 }
 }  // namespace lambert

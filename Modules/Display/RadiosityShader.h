@@ -7,12 +7,16 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 class vtkShaderProperty;
 
 namespace lambert {
-/// What the shader is made of.
+/// What the shader is made of; what is not there costs nothing.
 struct RadiosityShaderParts {
+  ToneCurve curve = ToneCurve::Photographic;
+  bool isLinear = false;      ///< radiosity in W/m2 as it is, without specular light
+  bool isSpecular = false;    ///< the renderer's lights are mirrored
   bool lightMap = false;      ///< the texture `lightMap` is there
   std::string baseTexture;    ///< name of the sampler of the base texture; empty: there is none
   bool isBaseEncoded = true;  ///< the base texture is sRGB and not yet decoded
@@ -21,8 +25,18 @@ struct RadiosityShaderParts {
   bool isEnvironmentEncoded = false;  ///< it is sRGB and not decoded
 };
 
-/// Puts the replacements into `shader`, in place of any that it had. The vertex attributes are
-/// vertexRadiosityMC, vertexIrradianceMC, reflectanceMC (3 float) and lightMapCoordsMC (2 float).
+bool operator==(const RadiosityShaderParts& a, const RadiosityShaderParts& b);
+
+/// A vertex attribute of the shader, floats.
+struct RadiosityAttribute {
+  const char* name;   ///< of the attribute
+  const char* type;   ///< in the shader
+  const char* array;  ///< of the points, from which it is read
+};
+/// Those that a shader of `parts` reads.
+std::vector<RadiosityAttribute> AttributesOf(const RadiosityShaderParts& parts);
+
+/// Puts the replacements into `shader`, in place of any that it had.
 void ReplaceDiffuseLight(const RadiosityShaderParts& parts, vtkShaderProperty* shader);
 
 /// Where a texture of the surroundings is seen: rows are its right, its up and its front in view
@@ -34,11 +48,8 @@ struct EnvironmentView {
 };
 void SetEnvironmentView(const EnvironmentView& view, vtkShaderProperty* shader);
 
-/// Sets the last level of the mip map of `lightMap` that is looked up.
-void SetLightMapLevels(int last, vtkShaderProperty* shader);
-
-/// Sets the uniforms that expose; with `linear` the fragments are radiosity in W/m2 alone.
-void SetExposure(const ToneMapping& toneMapping, bool linear, vtkShaderProperty* shader);
+/// Sets the uniforms that expose.
+void SetExposure(const ToneMapping& toneMapping, vtkShaderProperty* shader);
 }  // namespace lambert
 
 #endif

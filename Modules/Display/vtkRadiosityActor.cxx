@@ -11,6 +11,7 @@
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkOpenGLTexture.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
@@ -20,6 +21,7 @@
 #include "vtkRenderer.h"
 #include "vtkShaderProperty.h"
 #include "vtkTexture.h"
+#include "vtkTextureObject.h"
 #include "vtkTriangleMeshAdapter.h"
 #include "vtkValueArrays.h"
 
@@ -30,13 +32,6 @@ vtkStandardNewMacro(vtkRadiosityActor);
 
 namespace {
 using Names = vtkRadiosityArrays;
-
-/// Vertex attributes of the shader and the arrays that they are read from.
-constexpr std::pair<const char*, const char*> kAttributes[] = {
-    {"vertexRadiosityMC", "Shown.VertexRadiosity"},
-    {"vertexIrradianceMC", "Shown.VertexIrradiance"},
-    {"reflectanceMC", "Shown.Reflectance"},
-    {"lightMapCoordsMC", "Shown.LightMapTCoords"}};
 
 lambert::PointLight LightOf(vtkPolyData* mesh, int pages) {
   vtkPointData* points = mesh->GetPointData();
@@ -72,10 +67,6 @@ vtkRadiosityActor::vtkRadiosityActor()
       LightMap(new lambert::LightImage) {
   // One state for all.
   this->LightMapper->ScalarVisibilityOff();
-  for (const auto& [attribute, array] : kAttributes) {
-    this->LightMapper->MapDataArrayToVertexAttribute(attribute, array,
-                                                     vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
-  }
   this->LightMapper->SetInputData(this->Drawn);
   this->SetMapper(this->LightMapper);
 
@@ -178,19 +169,30 @@ void vtkRadiosityActor::UpdateAppearance() {
   vtkPointData* points = this->Drawn->GetPointData();
   points->SetNormals(this->Mesh->GetPointData()->GetNormals());
   points->SetTCoords(this->Mesh->GetPointData()->GetTCoords());
-  points->AddArray(lambert::ArrayFromTuples(kAttributes[0].second, appearance.vertexRadiosity));
-  points->AddArray(lambert::ArrayFromTuples(kAttributes[1].second, appearance.vertexIrradiance));
-  points->AddArray(lambert::ArrayFromTuples(kAttributes[2].second, appearance.reflectance));
-  points->AddArray(lambert::ArrayFromTuples(kAttributes[3].second, appearance.lightMapCoords));
+  points->AddArray(lambert::ArrayFromTuples("Shown.VertexRadiosity", appearance.vertexRadiosity));
+  points->AddArray(lambert::ArrayFromTuples("Shown.VertexIrradiance", appearance.vertexIrradiance));
+  points->AddArray(lambert::ArrayFromTuples("Shown.Reflectance", appearance.reflectance));
+  points->AddArray(lambert::ArrayFromTuples("Shown.LightMapTCoords", appearance.lightMapCoords));
 
   // What the eye adapts to.
   this->Samples = lambert::ShownSamples(mesh, appearance, *this->LightMap);
 }
 
-int vtkRadiosityActor::LightMapLevels() {
+void vtkRadiosityActor::LoadLightMap(vtkRenderer* renderer) {
+  if (!renderer || this->Pages.empty()) {
+    return;
+  }
+
+  // Mip maps as far as charts lie apart.
   vtkDataArray* padding = this->Mesh->GetFieldData()->GetArray(Names::AtlasPadding());
   const bool isKnown = padding && padding->GetNumberOfTuples() == 1;
-  return isKnown ? lambert::SafeMipLevel(static_cast<int>(padding->GetComponent(0, 0))) : 0;
+  const int last =
+      isKnown ? lambert::SafeMipLevel(static_cast<int>(padding->GetComponent(0, 0))) : 0;
+  this->LightMapTexture->Render(renderer);
+  vtkOpenGLTexture* texture = vtkOpenGLTexture::SafeDownCast(this->LightMapTexture);
+  if (texture && texture->GetTextureObject()) {
+    texture->GetTextureObject()->SetMaxLevel(last);
+  }
 }
 
 void vtkRadiosityActor::UpdateEnvironment(vtkRenderer* renderer) {
@@ -238,6 +240,10 @@ void vtkRadiosityActor::UpdateShader() {
   const char* sampler = nullptr;
   vtkTexture* base = this->BaseTexture(&sampler);
   lambert::RadiosityShaderParts parts;
+  parts.isLinear = this->LinearLight;
+  parts.isSpecular = !this->LinearLight && this->GetProperty()->GetLighting() &&
+                     (this->GetProperty()->GetInterpolation() == VTK_PBR ||
+                      this->GetProperty()->GetSpecular() > 0);
   parts.lightMap = !this->Pages.empty();
   parts.baseTexture = base ? sampler : "";
   parts.isBaseEncoded = base && !base->GetUseSRGBColorSpace();
@@ -245,8 +251,6 @@ void vtkRadiosityActor::UpdateShader() {
   parts.environment = this->Environment != nullptr;
   parts.isEnvironmentEncoded = parts.environment && !this->Environment->GetUseSRGBColorSpace() &&
                                this->Environment->GetColorMode() != VTK_COLOR_MODE_DIRECT_SCALARS;
-  lambert::ReplaceDiffuseLight(parts, this->GetShaderProperty());
-  lambert::SetLightMapLevels(this->LightMapLevels(), this->GetShaderProperty());
 
   // Exposure.
   if (std::max(this->AppearanceTime.GetMTime(), this->ToneMapping->GetMTime()) >
@@ -254,15 +258,35 @@ void vtkRadiosityActor::UpdateShader() {
     this->Exposure.reset(new lambert::ToneMapping(this->ToneMapping->Adapt(this->Samples)));
     this->ExposureTime.Modified();
   }
-  lambert::SetExposure(*this->Exposure, this->LinearLight, this->GetShaderProperty());
+  parts.curve = this->Exposure->Curve();
+  lambert::SetExposure(*this->Exposure, this->GetShaderProperty());
+
+  // VTK builds it anew where its parts have changed or are gone, and not every frame.
+  if (this->ShaderParts && *this->ShaderParts == parts &&
+      this->GetShaderProperty()->GetNumberOfShaderReplacements() > 0) {
+    return;
+  }
+  this->ShaderParts.reset(new lambert::RadiosityShaderParts(parts));
+  lambert::ReplaceDiffuseLight(parts, this->GetShaderProperty());
+  this->LightMapper->RemoveAllVertexAttributeMappings();
+  for (const lambert::RadiosityAttribute& attribute : lambert::AttributesOf(parts)) {
+    this->LightMapper->MapDataArrayToVertexAttribute(
+        (std::string(attribute.name) + "MC").c_str(), attribute.array,
+        vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
+  }
 }
 
 int vtkRadiosityActor::RenderOpaqueGeometry(vtkViewport* viewport) {
   if (!this->Mesh) {
     return 0;
   }
-  this->UpdateEnvironment(vtkRenderer::SafeDownCast(viewport));
-  return this->Update() ? this->Superclass::RenderOpaqueGeometry(viewport) : 0;
+  vtkRenderer* renderer = vtkRenderer::SafeDownCast(viewport);
+  this->UpdateEnvironment(renderer);
+  if (!this->Update()) {
+    return 0;
+  }
+  this->LoadLightMap(renderer);
+  return this->Superclass::RenderOpaqueGeometry(viewport);
 }
 
 double* vtkRadiosityActor::GetBounds() {

@@ -30,6 +30,7 @@
 namespace lambert {
 struct LightImage;
 struct LuminanceSample;
+struct RadiosityShaderParts;
 class ToneMapping;
 }  // namespace lambert
 
@@ -88,7 +89,8 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityActor : public vtkOpenGLActor {
   /// What surfaces mirror: the renderer's environment texture, where shading is not physically
   /// based, which mirrors it by itself.
   void UpdateEnvironment(vtkRenderer* renderer);
-  int LightMapLevels();
+  /// The light map on the renderer's device, with the mip maps that are safe.
+  void LoadLightMap(vtkRenderer* renderer);
   /// The base texture, if any, and the name of its sampler.
   vtkTexture* BaseTexture(const char** sampler);
 
@@ -104,6 +106,7 @@ class LAMBERTDISPLAY_EXPORT vtkRadiosityActor : public vtkOpenGLActor {
   std::unique_ptr<lambert::LightImage> LightMap;  ///< the pages, one above the other
   std::vector<lambert::LuminanceSample> Samples;  ///< of what is shown
   std::unique_ptr<lambert::ToneMapping> Exposure;
+  std::unique_ptr<lambert::RadiosityShaderParts> ShaderParts;  ///< of the shader that is there
   bool IsTextured = false;
   vtkTimeStamp InputTime, AppearanceTime, ExposureTime;
 };

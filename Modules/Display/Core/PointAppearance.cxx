@@ -96,12 +96,14 @@ PointAppearance MakePointAppearance(const TriangleMesh& mesh, const PointLight& 
     if (IsOnMap(appearance.lightMapCoords[point])) continue;
     if (asItStands) {
       appearance.vertexRadiosity[point] = light.radiosity[point];
-    } else if (!light.irradiance.empty()) {
-      appearance.vertexIrradiance[point] = light.irradiance[point];
-    } else {
+    } else if (light.irradiance.empty()) {
       throw Error(
           "The mesh has points without light: run a radiosity method first, or give the pages of "
           "its light map.");
+    } else if (textured) {
+      appearance.vertexIrradiance[point] = light.irradiance[point];
+    } else {
+      appearance.vertexRadiosity[point] += appearance.reflectance[point] * light.irradiance[point];
     }
   }
   return appearance;

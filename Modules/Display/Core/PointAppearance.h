@@ -20,12 +20,13 @@ struct PointLight {
   int pages = 0;                      ///< of the light map; 0: there is none
 };
 
-/// Per point. A fragment shows vertexRadiosity + base (vertexIrradiance + light map), base being
-/// the reflectance, or a texture of the actor's. A point that a light map lights has no light of
-/// its own but what it emits; one that does not lies outside of the map, where the map is black.
+/// Per point. A fragment shows vertexRadiosity + reflectance x light map, or under a texture of the
+/// actor's vertexRadiosity + texture x (vertexIrradiance + light map). A point that a light map
+/// lights has no light of its own but what it emits; one that does not lies outside of the map,
+/// where the map is black.
 struct PointAppearance {
   std::vector<Spectrum> vertexRadiosity;   ///< W/m2
-  std::vector<Spectrum> vertexIrradiance;  ///< W/m2
+  std::vector<Spectrum> vertexIrradiance;  ///< W/m2; black where there is no texture
   std::vector<Spectrum> reflectance;       ///< mean of the faces about the point, by area
   std::vector<Vec2f> lightMapCoords;       ///< on all pages, one above the other; (-1, -1): none
 };

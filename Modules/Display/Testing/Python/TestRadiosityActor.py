@@ -4,7 +4,8 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  draws
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
-from vtkmodules.vtkRenderingCore import vtkProperty, vtkRenderer, vtkRenderWindow, vtkTexture, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingCore import (vtkProperty, vtkRenderer, vtkRenderWindow, vtkShaderProperty, vtkTexture,
+                                            vtkWindowToImageFilter)
 
 import lambert
 
@@ -184,6 +185,22 @@ for data, pages, around in ((even, [], environment), (mixed, [page([100, 0, 0]),
         actor.GetProperty().SetSpecularPower(200)
         pictures.append(draw(actor, around))
     assert np.array_equal(*pictures) and pictures[0].max() > 50
+
+# So does another shader property, and switching curve and light back and forth on one actor.
+actor = lambert.vtkRadiosityActor()
+actor.SetInputData(mixed)
+for light in ([100, 0, 0], dim[0]):
+    actor.AddLightMapPage(page(light))
+first = draw(actor)
+actor.SetShaderProperty(vtkShaderProperty())
+assert np.array_equal(draw(actor), first)
+for there, back in ((actor.LinearLightOn, actor.LinearLightOff),
+                    (actor.GetToneMapping().SetCurveToFilmic, actor.GetToneMapping().SetCurveToPhotographic),
+                    (lambda: actor.GetProperty().SetSpecular(1), lambda: actor.GetProperty().SetSpecular(0))):
+    there()
+    assert not np.array_equal(draw(actor), first)
+    back()
+    assert np.array_equal(draw(actor), first)
 
 # A light map is averaged where its texels are smaller than pixels, as far as its charts lie apart.
 checks = page([0, 0, 0], 128)
