@@ -14,13 +14,17 @@ namespace {
 /// A group of emitters farther away than this many of its radii is taken as one.
 constexpr float kSmallBeyond = 12;
 /// A polygon nearer than this many of its sizes is sampled by solid angle, else by area.
-constexpr float kLargeWithin = 1.5f;
-/// The rays to a polygon choose by what they give from at least so many places together, where it
-/// is nearer than this many of its sizes; farther away all places on it give alike.
-constexpr int kLeastPlaces = 8;
+constexpr float kLargeWithin = 0.35f;
+/// The rays to a polygon choose by what they give from so many places together, where its middle is
+/// nearer than this many of its sizes; farther away all places on it give alike. Places by area are
+/// cheap, and give less evenly: every ray chooses from some.
+constexpr int kPlacesByDirection = 2, kPlacesByArea = 16, kLeastPlacesByArea = 8;
+constexpr int kMostPlaces = 16;
 constexpr float kAlikeBeyond = 5;
 /// A polygon that looks smaller than this is sampled by area, sr.
-constexpr double kLeastSolidAngle = 1e-4;
+constexpr float kLeastSolidAngle = 1e-4f;
+/// A corner counts as this much above the horizon at least.
+constexpr float kLeastCosine = 0.02f;
 /// Where all of these lie below the horizon, that many others are tried.
 constexpr int kMorePlaces = 8;
 /// Light of which more than this part comes from groups scatters without being blocked.
@@ -46,11 +50,12 @@ Cone Narrowed(const Cone& a, const Cone& b) {
 
 float Square(float x) { return x * x; }
 
-float Fraction(float x) { return x < 1 ? x : x - 1; }
-
-bool IsAbove(const GatherPoint& at, const Vec3f& direction) {
-  return Dot(at.normal, direction) > 0 && Dot(at.geometricNormal, direction) > 0;
+/// A number in [0, 1], of density linear from `a` at 0 to `b` at 1, of `u` uniform in it.
+float LinearlyDense(float u, float a, float b) {
+  return u * (a + b) / (a + std::sqrt(a * a + u * (b * b - a * a)));
 }
+
+float Fraction(float x) { return x < 1 ? x : x - 1; }
 
 }  // namespace
 
@@ -66,7 +71,25 @@ DirectLight::Emitter::Emitter(const EmittingPolygon& polygon_)
     : polygon(polygon_),
       center(polygon_.Center()),
       size(polygon_.LargestSize()),
-      power(polygon_.area * polygon_.emittance.Mean()) {}
+      power(polygon_.area * polygon_.emittance.Mean()) {
+  float area = 0;
+  for (size_t c = 2; c < size_t(polygon.count); ++c) {
+    area += polygon.FanArea(int(c));
+    upTo[c - 2] = area;
+  }
+  for (size_t c = 2; c < size_t(polygon.count); ++c) upTo[c - 2] /= area;
+}
+
+// Uniform in area, of `u` and `v` uniform in [0, 1).
+Vec3f DirectLight::Emitter::Place(float u, float v) const {
+  size_t triangle = 0;
+  while (int(triangle) + 3 < polygon.count && u >= upTo[triangle]) ++triangle;
+  const float before = triangle > 0 ? upTo[triangle - 1] : 0, share = upTo[triangle] - before;
+  u = share > 0 ? std::min(1.f, (u - before) / share) : 0.5f;
+  const auto& corners = polygon.corners;
+  return PlaceOnTriangle(corners[0], corners[triangle + 1], corners[triangle + 2],
+                         UniformTriangle(u, v));
+}
 
 int32_t DirectLight::Build(int32_t begin, int32_t end) {
   // Bounds.
@@ -192,56 +215,71 @@ int DirectLight::Sources(const GatherPoint& at, Source* sources) const {
   return count;
 }
 
-DirectLight::PolygonView::PolygonView(const Emitter& emitter, const GatherPoint& at_)
-    : polygon(emitter.polygon), at(at_) {
+DirectLight::PolygonView::PolygonView(const Emitter& emitter_, const GatherPoint& at_)
+    : emitter(emitter_), at(at_) {
+  // From near by, by solid angle.
+  const EmittingPolygon& polygon = emitter.polygon;
   const float squared = LengthSquared(emitter.center - at.position);
   areAlike = squared > Square(kAlikeBeyond * emitter.size);
-  if (squared > Square(kLargeWithin * emitter.size)) return;
+  if (squared > Square((kLargeWithin + 1) * emitter.size) ||
+      polygon.DistanceSquared(at.position) > Square(kLargeWithin * emitter.size)) {
+    return;
+  }
   std::array<Vec3d, EmittingPolygon::kMostCorners> toward;
   for (size_t c = 0; c < size_t(polygon.count); ++c) {
     toward[c] = Normalize(Vec3d(polygon.corners[c]) - Vec3d(at.position));
+    cornerCosine[c] = std::max(kLeastCosine, Dot(at.normal, Vec3f(toward[c])));
   }
-  double angle = 0;
+  float given = 0, solidAngle = 0;
   for (size_t c = 2; c < size_t(polygon.count); ++c) {
     fan[c - 2] = SphericalTriangle(toward[0], toward[c - 1], toward[c]);
-    angle += fan[c - 2].SolidAngle();
+    const float angle = float(fan[c - 2].SolidAngle());
+    solidAngle += angle;
+    given += angle * (cornerCosine[0] + 2 * cornerCosine[c - 1] + cornerCosine[c]) / 4;
+    fanUpTo[c - 2] = given;
   }
-  if (angle > kLeastSolidAngle) solidAngle = float(angle);
+  byDirection = solidAngle > kLeastSolidAngle;
 }
 
-// Uniform in solid angle, of `u` and `v` uniform in [0, 1).
-Vec3d DirectLight::PolygonView::Direction(double u, double v) const {
-  double left = u * double(solidAngle);
-  size_t triangle = 0;
-  while (int(triangle) + 3 < polygon.count && left >= fan[triangle].SolidAngle()) {
-    left -= fan[triangle++].SolidAngle();
-  }
-  return fan[triangle].Sample(std::min(1.0, left / fan[triangle].SolidAngle()), v);
+// Of density bilinear between the cosines at the corners, in direction; of `uv` uniform in [0, 1).
+Vec3f DirectLight::PolygonView::PlaceInDirection(const Vec2f& uv, float* density) const {
+  // The triangle.
+  const EmittingPolygon& polygon = emitter.polygon;
+  size_t t = 0;
+  const float chosen = uv.x * fanUpTo[size_t(polygon.count) - 3];
+  while (int(t) + 3 < polygon.count && chosen >= fanUpTo[t]) ++t;
+  const float before = t > 0 ? fanUpTo[t - 1] : 0, share = fanUpTo[t] - before;
+  const float u = share > 0 ? std::min(1.f, (chosen - before) / share) : 0.5f;
+
+  // From its second corner towards the arc from the first to the third.
+  const float first = cornerCosine[0], second = cornerCosine[t + 1], third = cornerCosine[t + 2];
+  const float away = LinearlyDense(uv.y, 2 * second, first + third);
+  const float atFirst = second + away * (first - second),
+              atThird = second + away * (third - second);
+  const float along = LinearlyDense(u, atFirst, atThird);
+  *density = atFirst + along * (atThird - atFirst);
+  const Vec3d d = fan[t].Sample(double(along), double(away));
+  const Vec3d normal(polygon.normal);
+  const double slope = Dot(d, normal);
+  const double height = Dot(Vec3d(polygon.corners[0]) - Vec3d(at.position), normal);
+  return slope * height > 0 ? Vec3f(Vec3d(at.position) + d * (height / slope)) : polygon.corners[0];
 }
 
-// A place on a polygon: uniform in solid angle where it looks large, else in area. `value` is what
-// such places give, but for a factor that is the same for all of the polygon.
-bool DirectLight::PolygonView::Place(const Vec2f& uv, Vec3f* target, float* value) const {
-  float density = 0;  // Over solid angle.
-  if (solidAngle > 0) {
-    const Vec3d d = this->Direction(double(uv.x), double(uv.y));
-    const Vec3d normal(polygon.normal);
-    const double slope = Dot(d, normal);
-    const double height = Dot(Vec3d(polygon.corners[0]) - Vec3d(at.position), normal);
-    if (!(slope * height > 0)) return false;
-    *target = Vec3f(Vec3d(at.position) + d * (height / slope));
-    density = 1 / solidAngle;
+// `given` is what such a place gives, but for a factor that is the same for all of the polygon;
+// none below the horizon.
+Vec3f DirectLight::PolygonView::Place(const Vec2f& uv, float* given) const {
+  float density = 1;
+  const Vec3f place =
+      byDirection ? this->PlaceInDirection(uv, &density) : emitter.Place(uv.x, uv.y);
+  const Vec3f offset = place - at.position;
+  const float cosine = Dot(at.normal, offset), squared = LengthSquared(offset);
+  const bool isAbove = cosine > 0 && Dot(at.geometricNormal, offset) > 0;
+  if (!isAbove) {
+    *given = 0;
   } else {
-    *target = PlaceOnPolygon(polygon.corners.data(), polygon.count, uv.x, uv.y);
-    const Vec3f offset = *target - at.position;
-    const float squared = LengthSquared(offset);
-    const float cosine = -Dot(offset, polygon.normal) / std::sqrt(std::max(squared, 1e-30f));
-    if (!(cosine > 0)) return false;
-    density = squared / (cosine * polygon.area);
+    *given = byDirection ? cosine / (std::sqrt(squared) * density) : cosine / Square(squared);
   }
-  const Vec3f direction = Normalize(*target - at.position);
-  *value = Dot(at.normal, direction) / density;
-  return IsAbove(at, direction);
+  return place;
 }
 
 // One of some places on a polygon, by what each gives: the fewer the rays that share it out, the
@@ -249,20 +287,37 @@ bool DirectLight::PolygonView::Place(const Vec2f& uv, Vec3f* target, float* valu
 // is what they give in the mean.
 bool DirectLight::PolygonView::PickPlace(const Vec2f& uv, int rays, Random* random, Vec3f* target,
                                          float* value) const {
-  const int places = areAlike ? 1 : std::max(1, kLeastPlaces / rays);
+  // Evenly over the ray's share, one after the other across it.
+  const int shared = byDirection ? kPlacesByDirection : kPlacesByArea;
+  const int count = areAlike ? 1 : std::max(byDirection ? 1 : kLeastPlacesByArea, shared / rays);
+  std::array<Vec3f, kMostPlaces> places;
+  std::array<float, kMostPlaces> upTo;
+  const float step = 1 / float(count * rays);
   float sum = 0;
-  for (int i = 0; i < places || (!(sum > 0) && i < places + kMorePlaces); ++i) {
-    // Evenly over the ray's share, one after the other across it.
-    Vec2f next(Fraction(uv.x + float(i) / float(places * rays)), RadicalInverse(uint32_t(i), uv.y));
-    if (i >= places) next = {random->Uniform(), random->Uniform()};
-    Vec3f place;
+  for (int i = 0; i < count; ++i) {
+    const Vec2f next(Fraction(uv.x + float(i) * step), RadicalInverse(uint32_t(i), uv.y));
     float given = 0;
-    if (!this->Place(next, &place, &given)) continue;
+    places[size_t(i)] = this->Place(next, &given);
     sum += given;
-    if (random->Uniform() * sum < given) *target = place;
+    upTo[size_t(i)] = sum;
   }
-  *value = sum / float(places);
-  return sum > 0;
+  *value = sum / float(count);
+  if (sum > 0) {
+    const float chosen = random->Uniform() * sum;
+    int i = 0;
+    while (i + 1 < count && upTo[size_t(i)] <= chosen) ++i;
+    *target = places[size_t(i)];
+    return true;
+  }
+
+  // Where all lie below the horizon, some others.
+  for (int i = 0; i < kMorePlaces; ++i) {
+    const float u = random->Uniform();
+    *target = this->Place({u, random->Uniform()}, value);
+    *value /= float(count + i + 1);
+    if (*value > 0) return true;
+  }
+  return false;
 }
 
 // Rays dealt out by weight, systematically: each brings an equal part of it. `squares` is the sum
@@ -301,7 +356,7 @@ Spectrum DirectLight::CastRays(const GatherPoint& at, const Source* sources, int
       const float v = RadicalInverse(uint32_t(first + k), shift);
       Vec3f target;
       if (!view->PickPlace({u, v}, isPolygon ? own : 1, &random, &target, &value)) continue;
-      const bool isClear = !rayScene_.Occluded(at.position, target);
+      const bool isClear = !rayScene_.Occluded({at.position, at.geometricNormal}, target);
       *clear += isClear;
       all += value;
       if (!isClear) continue;
@@ -350,7 +405,8 @@ Spectrum DirectLight::FromLights(const GatherPoint& at, int count, uint64_t seed
   const LitPlace place{at.position, at.normal, at.geometricNormal};
   return lights_.Irradiance(place, count, seed, [&](const LightSample& sample) {
     ++*rays;
-    return !rayScene_.Occluded(at.position, sample.direction, sample.distance);
+    const RayStart start{at.position, at.geometricNormal};
+    return !rayScene_.Occluded(start, sample.direction, sample.distance);
   });
 }
 

@@ -60,21 +60,27 @@ class DirectLight {
     Vec3f center;
     float size = 0;   ///< largest, m
     float power = 0;  ///< W, mean of the bands
+    /// Part of the area of the first triangles of its fan, with each.
+    std::array<float, EmittingPolygon::kMostCorners - 2> upTo{};
 
     explicit Emitter(const EmittingPolygon& polygon);
+    Vec3f Place(float u, float v) const;
   };
   /// A polygon as seen from a point.
   struct PolygonView {
-    const EmittingPolygon& polygon;
+    const Emitter& emitter;
     const GatherPoint& at;
-    bool areAlike = false;  ///< all places on it give alike
-    float solidAngle = 0;   ///< sr; 0 where places are chosen by area
+    bool areAlike = false;     ///< all places on it give alike
+    bool byDirection = false;  ///< places are chosen by direction, else by area
     std::array<SphericalTriangle, EmittingPolygon::kMostCorners - 2> fan;
+    std::array<float, EmittingPolygon::kMostCorners> cornerCosine;  ///< to the corners, above 0
+    /// Of the first triangles of the fan with each, solid angle times cosine.
+    std::array<float, EmittingPolygon::kMostCorners - 2> fanUpTo;
 
     PolygonView(const Emitter& emitter, const GatherPoint& at);
-    Vec3d Direction(double u, double v) const;
-    bool Place(const Vec2f& uv, Vec3f* target, float* value) const;
     bool PickPlace(const Vec2f& uv, int rays, Random* random, Vec3f* target, float* value) const;
+    Vec3f Place(const Vec2f& uv, float* given) const;
+    Vec3f PlaceInDirection(const Vec2f& uv, float* density) const;
   };
   struct Node {
     Vec3f center;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <unordered_map>
 
@@ -172,6 +173,26 @@ float EmittingPolygon::LargestSize() const {
     }
   }
   return largest;
+}
+
+float EmittingPolygon::FanArea(int corner) const {
+  const size_t c = size_t(corner);
+  return Length(Cross(corners[c - 1] - corners[0], corners[c] - corners[0])) / 2;
+}
+
+float EmittingPolygon::DistanceSquared(const Vec3f& place) const {
+  bool isInside = true;
+  float least = std::numeric_limits<float>::max();
+  for (int i = 0; i < count; ++i) {
+    const Vec3f& corner = corners[size_t(i)];
+    const Vec3f edge = corners[size_t((i + 1) % count)] - corner, offset = place - corner;
+    if (Dot(Cross(normal, edge), offset) < 0) isInside = false;
+    const float along = Dot(offset, edge) / std::max(LengthSquared(edge), 1e-30f);
+    const Vec3f nearest = corner + edge * std::min(1.f, std::max(0.f, along));
+    least = std::min(least, LengthSquared(place - nearest));
+  }
+  const float height = Dot(place - corners[0], normal);
+  return isInside ? height * height : least;
 }
 
 std::vector<EmittingPolygon> FindEmittingPolygons(const TriangleMesh& mesh) {

@@ -23,6 +23,9 @@ struct EmittingPolygon {
 
   Vec3f Center() const;       ///< mean of the corners
   float LargestSize() const;  ///< between two corners, m
+  /// Of the triangle of the first corner, that before `corner`, and `corner`, from 2 on, m2.
+  float FanArea(int corner) const;
+  float DistanceSquared(const Vec3f& place) const;  ///< to the nearest of its points, m2
 };
 
 /// Of every side that emits. Faces of one plane and exitance that edges join are one polygon where

@@ -349,8 +349,8 @@ Spectrum FinalGather::IrradianceOfLeaf(int32_t leaf, const Vec3f& place, const V
 
 // Far away a leaf is as bright as it is in the mean. One nearer than its own size may be seen where
 // it is not: there light is followed for another bounce.
-FinalGather::Radiosity FinalGather::Met(const Vec3f& from, const Vec3f& direction, Random* random,
-                                        int bounces, int64_t* rays) const {
+FinalGather::Radiosity FinalGather::Met(const RayStart& from, const Vec3f& direction,
+                                        Random* random, int bounces, int64_t* rays) const {
   ++*rays;
   const RayHit hit = rayScene_.Closest(from, direction);
   if (hit.face < 0) return {direct_.Lights().Radiance(direction) * float(kPi), {}, 0};
@@ -359,7 +359,7 @@ FinalGather::Radiosity FinalGather::Met(const Vec3f& from, const Vec3f& directio
   if (reflectance.IsBlack()) return {{}, {}, hit.distance};
   const Side side = Dot(hit.front, direction) < 0 ? kFront : kBack;
   const Vec3f normal = side == kFront ? hit.front : -hit.front;
-  const Vec3f place = from + direction * hit.distance;
+  const Vec3f place = from.position + direction * hit.distance;
   const int32_t leaf = this->LeafAt(hit.face, side, place);
   if (leaf < 0) return {{}, {}, hit.distance};
   const Element& element = hierarchy_[leaf];
@@ -373,7 +373,7 @@ FinalGather::Radiosity FinalGather::Met(const Vec3f& from, const Vec3f& directio
   const Vec3f d = CosineHemisphere(random->Uniform(), random->Uniform());
   const Spectrum direct = direct_.Sample(at, 1, random->Bits(), rays).irradiance;
   const Radiosity next =
-      this->Met(place, u * d.x + v * d.y + normal * d.z, random, bounces - 1, rays);
+      this->Met({place, normal}, u * d.x + v * d.y + normal * d.z, random, bounces - 1, rays);
   return {reflectance * (direct + next.fromSources), reflectance * next.fromLeaves, hit.distance};
 }
 
@@ -440,7 +440,8 @@ void FinalGather::GatherBatch(const GatherPoint* points, int count, const Bounce
             u[size_t(ray.point)] * d.x + v[size_t(ray.point)] * d.y + at.normal * d.z;
         if (Dot(direction, at.geometricNormal) <= 0) continue;
         Random random(HashBits(rays.seed, ray.index));
-        const Radiosity met = this->Met(at.position, direction, &random, kMostBounces, cast);
+        const Radiosity met =
+            this->Met({at.position, at.geometricNormal}, direction, &random, kMostBounces, cast);
         const Spectrum light = met.fromSources + met.fromLeaves;
         BounceSum& sum = sums[ray.point];
         sum.fromSources += met.fromSources;

@@ -80,7 +80,7 @@ class FinalGather {
     Spectrum fromSources, fromLeaves;
     float distance = 0;  ///< of what it meets, m; 0: nothing
   };
-  Radiosity Met(const Vec3f& from, const Vec3f& direction, Random* random, int bounces,
+  Radiosity Met(const RayStart& from, const Vec3f& direction, Random* random, int bounces,
                 int64_t* rays) const;
   int32_t LeafAt(int64_t face, Side side, const Vec3f& position) const;
   /// What a leaf receives in the mean, W/m2.

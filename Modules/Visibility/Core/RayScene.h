@@ -14,6 +14,12 @@ struct Segment {
   Vec3f from, to;
 };
 
+/// Where rays leave a surface.
+struct RayStart {
+  Vec3f position;
+  Vec3f normal;  ///< unit, geometric, of the side that they leave
+};
+
 struct RayHit {
   int32_t face = -1;   ///< -1: nothing
   float distance = 0;  ///< along the unit direction, m
@@ -44,6 +50,13 @@ class RayScene {
   bool OccludedDirection(const Vec3f& from, const Vec3f& direction) const;
   /// The closest hit beyond Epsilon().
   RayHit Closest(const Vec3f& from, const Vec3f& unitDirection) const;
+
+  /// The same of rays that leave a surface: nearer than Epsilon() they pass what lies upon it,
+  /// within 8 degrees of parallel, alone. A wall that rises from it blocks however near it is, or
+  /// light would leak along edges, and fill closed things that are not much larger.
+  bool Occluded(const RayStart& from, const Vec3f& to) const;
+  bool Occluded(const RayStart& from, const Vec3f& unitDirection, float distance) const;
+  RayHit Closest(const RayStart& from, const Vec3f& unitDirection) const;
   /// Faces whose bounds come within `radius` (m) of a point, in ascending order.
   std::vector<int32_t> FacesNear(const Vec3f& point, float radius) const;
 
