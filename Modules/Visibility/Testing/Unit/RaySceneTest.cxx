@@ -35,10 +35,9 @@ TEST(RayScene, NoneLeavesASmallClosedThing) {
   int leaving = 0;
   Random random(1);
   for (int i = 0; i < 1000; ++i) {
-    const RayStart start{
-        {size * 0.9f * (random.Uniform() - 0.5f), size * 0.9f * (random.Uniform() - 0.5f),
-         -size / 2},
-        {0, 0, 1}};
+    const RayStart start{{size * 0.9f * (random.Uniform() - 0.5f),
+                          size * 0.9f * (random.Uniform() - 0.5f), -size / 2},
+                         {0, 0, 1}};
     const Vec3f direction = CosineHemisphere(random.Uniform(), random.Uniform());
     if (direction.z < 0.2f) continue;  // So flat are those that rounding may bring to the floor.
     EXPECT_LT(rays.Closest(start, direction).distance, 2 * size);
