@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
@@ -36,9 +37,11 @@ constexpr int kMostBounces = 2;
 constexpr double kLeastRaysOfLeaf = 0.5, kMostRaysOfLeaf = 64;
 /// Rays to the emitting faces from a sample of a leaf.
 constexpr int kDirectRaysAtLeaves = 12;
-/// Where less than this part of the reflected light is lost in a bounce, nothing is known of its
-/// balance; one step changes it by no more than this factor.
-constexpr double kLeastLost = 0.01, kMostBalance = 2;
+/// A facet of a leaf receives up to this many times the mean of its samples.
+constexpr float kMostOfMean = 4;
+/// Bounces between leaves go on until one brings less than this part of all light, or so many.
+constexpr double kLeastGained = 1e-4;
+constexpr int kMostBouncesOfLeaves = 500;
 /// Light of which links knew less than this part comes from directions that they do not know.
 constexpr float kLeastKnown = 1e-3f;
 
@@ -61,18 +64,18 @@ FinalGather::FinalGather(const ElementHierarchy& hierarchy, const RayScene& rayS
   // Where each side of each face lies in the hierarchy.
   const size_t faces = hierarchy.GetScene().mesh.triangles.size();
   for (std::vector<int32_t>& element : elementOfFace_) element.assign(faces, -1);
-  polygonIrradiance_.resize(size_t(hierarchy.Size()));
   parts_.resize(size_t(hierarchy.Size()));
-  sampleIrradiance_.resize(size_t(hierarchy.Size()));
+  received_.resize(size_t(hierarchy.Size()) * kPlacesOfLeaf);
   sampleDirect_.resize(size_t(hierarchy.Size()));
   hasGathered_.resize(size_t(hierarchy.Size()), 0);
   isUneven_.resize(size_t(hierarchy.Size()), 0);
   for (int32_t index = 0; index < hierarchy.Size(); ++index) {
     const Element& element = hierarchy[index];
-    if (element.IsPolygon()) {
-      polygonIrradiance_[size_t(index)] =
-          ElementIrradiance(element, light->irradiance[size_t(index)]);
-      if (!element.IsLeaf()) this->FindParts(index);
+    if (element.IsLeaf()) {
+      std::fill_n(received_.begin() + int64_t(index) * kPlacesOfLeaf, kPlacesOfLeaf,
+                  ElementIrradiance(element, light->irradiance[size_t(index)]));
+    } else if (element.IsPolygon()) {
+      this->FindParts(index);
     }
     if (element.kind != ElementKind::Face || !(element.IsLeaf() || element.IsPolygon())) continue;
     const ClusterNode& node = hierarchy.Tree().nodes[size_t(element.item)];
@@ -115,61 +118,6 @@ int32_t FinalGather::LeafAt(int64_t face, Side side, const Vec3f& position) cons
   return index;
 }
 
-// What arrives at the samples of a leaf, in the mean.
-FinalGather::LeafLight FinalGather::GatherAtLeaf(int32_t leaf, int rays, uint64_t seed,
-                                                 int64_t* cast) const {
-  GatherPoint points[kSamplesPerElement];
-  BounceSum sums[kSamplesPerElement];
-  for (size_t k = 0; k < kSamplesPerElement; ++k) {
-    const SurfaceSample& sample = hierarchy_[leaf].samples[k];
-    points[k] = {sample.position, sample.normal, sample.normal};
-  }
-  BounceRays bounce;
-  bounce.count = 1;
-  while (bounce.count * kSamplesPerElement < rays) bounce.count *= 2;
-  bounce.seed = seed;
-  this->GatherBatch(points, kSamplesPerElement, bounce, sums, cast);
-  LeafLight mean;
-  for (size_t k = 0; k < kSamplesPerElement; ++k) {
-    // Straight from the sources it receives the same in every round.
-    mean.direct[k] =
-        hasGathered_[size_t(leaf)]
-            ? sampleDirect_[size_t(leaf)][k]
-            : direct_.Sample(points[k], kDirectRaysAtLeaves, HashBits(seed, k), cast).irradiance;
-    mean.atSample[k] = sums[k].Mean() + mean.direct[k];
-    mean.reflectedAtSample[k] = sums[k].fromLeaves / float(bounce.count);
-    mean.irradiance += mean.atSample[k] / float(kSamplesPerElement);
-    mean.reflected += mean.reflectedAtSample[k] / float(kSamplesPerElement);
-  }
-  return mean;
-}
-
-// What the leaves reflected before, R, may be too much or too little as a whole. With D from the
-// sources and I from the leaves, the factor f for which f R is what they reflect of D + f I.
-Spectrum FinalGather::BalancingFactor(const std::vector<int32_t>& leaves,
-                                      const std::vector<LeafLight>& gathered) const {
-  double before[3] = {}, fromSources[3] = {}, fromLeaves[3] = {};
-  for (size_t i = 0; i < leaves.size(); ++i) {
-    const Element& e = hierarchy_[leaves[i]];
-    const Spectrum had = ElementIrradiance(e, light_->irradiance[size_t(leaves[i])]);
-    for (int band = 0; band < 3; ++band) {
-      const double weight = double(e.area) * double(e.reflectance[band]);
-      const LeafLight& g = gathered[i];
-      before[band] += weight * double(had[band]);
-      fromLeaves[band] += weight * double(g.reflected[band]);
-      fromSources[band] += weight * double(g.irradiance[band] - g.reflected[band]);
-    }
-  }
-  Spectrum factor(1.f);
-  for (int band = 0; band < 3; ++band) {
-    const double lost = before[band] - fromLeaves[band];
-    if (!(lost > kLeastLost * before[band])) continue;
-    factor[band] =
-        float(std::min(kMostBalance, std::max(1 / kMostBalance, fromSources[band] / lost)));
-  }
-  return factor;
-}
-
 // Puts an irradiance into the vectors that a leaf had: they keep their directions and are as long
 // as it asks for.
 void FinalGather::Receive(int32_t leaf, const Spectrum& irradiance) {
@@ -193,7 +141,6 @@ void FinalGather::Receive(int32_t leaf, const Spectrum& irradiance) {
   }
   light_->rowScale[size_t(leaf)] = 1;
   light_->radiosity[size_t(leaf)] = element.emittance + element.reflectance * irradiance;
-  polygonIrradiance_[size_t(leaf)] = irradiance;
 }
 
 Spectrum FinalGather::Furnace() const {
@@ -215,63 +162,130 @@ Spectrum FinalGather::Brightest() const {
   for (const Spectrum& e : hierarchy_.GetScene().mesh.emittance) brightest = Larger(brightest, e);
   for (int32_t leaf = 0; leaf < hierarchy_.Size(); ++leaf) {
     if (!hasGathered_[size_t(leaf)]) continue;
-    for (const Spectrum& e : sampleIrradiance_[size_t(leaf)]) {
+    for (int k = 0; k < kSamplesPerElement; ++k) {
+      const Spectrum& e = received_[size_t(leaf) * kPlacesOfLeaf + size_t(k)];
       brightest = Larger(brightest, hierarchy_[leaf].emittance + hierarchy_[leaf].reflectance * e);
     }
   }
   return brightest;
 }
 
-void FinalGather::GatherAtLeaves(int rays, double share, uint64_t seed, int64_t* cast) {
-  // The leaves that reflect, and their mean area.
-  std::vector<int32_t> leaves;
+// Direct light at the samples of a leaf, and what their rays see.
+void FinalGather::CastFromLeaf(size_t row, uint64_t seed, LeafRows* rows, int64_t* cast) {
+  const int32_t leaf = rows->leaves[row];
+  GatherPoint points[kSamplesPerElement];
+  for (size_t k = 0; k < kSamplesPerElement; ++k) {
+    const SurfaceSample& sample = hierarchy_[leaf].samples[k];
+    points[k] = {sample.position, sample.normal, sample.normal};
+    // Straight from the sources it receives the same in every round.
+    Spectrum& direct = sampleDirect_[size_t(leaf)][k];
+    if (!hasGathered_[size_t(leaf)]) {
+      direct = direct_.Sample(points[k], kDirectRaysAtLeaves, HashBits(seed, k), cast).irradiance;
+    }
+    rows->fromSources[row][k] = direct;
+  }
+  const int64_t begin = rows->begin[row];
+  BounceRays bounce;
+  bounce.count = int(rows->begin[row + 1] - begin) / kSamplesPerElement;
+  bounce.seed = seed;
+  this->CastBatch(points, kSamplesPerElement, bounce, cast, [&](int ray, const Seen& seen) {
+    rows->fromSources[row][size_t(ray / bounce.count)] += seen.fromSources / float(bounce.count);
+    if (seen.place < 0) return;
+    rows->rays[size_t(begin + ray)] = {int32_t(seen.place / kPlacesOfLeaf),
+                                       int32_t(seen.place % kPlacesOfLeaf), seen.part};
+  });
+}
+
+// From the leaves that reflect, in proportion to their area.
+FinalGather::LeafRows FinalGather::CastFromLeaves(int rays, uint64_t seed, int64_t* cast) {
+  LeafRows rows;
   double area = 0;
   for (int32_t index = 0; index < hierarchy_.Size(); ++index) {
     const Element& e = hierarchy_[index];
     const bool isSurface = !e.IsVolume() && e.kind != ElementKind::Light;
     if (!e.IsLeaf() || !isSurface || e.reflectance.IsBlack() || !(e.area > 0)) continue;
-    leaves.push_back(index);
+    rows.leaves.push_back(index);
     area += double(e.area);
   }
-  if (leaves.empty()) return;
-  const double meanArea = area / double(leaves.size());
-
-  // All gather from what all had before.
-  std::vector<LeafLight> gathered(leaves.size());
-  std::vector<int64_t> castBy(leaves.size(), 0);
-  ParallelForEach(int64_t(leaves.size()), 16, [&](int64_t i) {
-    const int32_t leaf = leaves[size_t(i)];
+  const double meanArea = area / double(rows.leaves.size());
+  rows.begin = {0};
+  for (const int32_t leaf : rows.leaves) {
     const double part = std::min(
         kMostRaysOfLeaf, std::max(kLeastRaysOfLeaf, double(hierarchy_[leaf].area) / meanArea));
-    gathered[size_t(i)] = this->GatherAtLeaf(leaf, int(rays * part), HashBits(seed, uint64_t(leaf)),
-                                             &castBy[size_t(i)]);
-  });
+    int count = 1;
+    while (count * kSamplesPerElement < int(rays * part)) count *= 2;
+    rows.begin.push_back(rows.begin.back() + count * kSamplesPerElement);
+  }
+  rows.rays.resize(size_t(rows.begin.back()));
+  rows.fromSources.resize(rows.leaves.size());
 
-  // As a whole they reflect what they receive; few rays may find more than there is.
-  const Spectrum factor = this->BalancingFactor(leaves, gathered);
+  std::vector<int64_t> castBy(rows.leaves.size(), 0);
+  ParallelForEach(int64_t(rows.leaves.size()), 16, [&](int64_t row) {
+    this->CastFromLeaf(size_t(row), HashBits(seed, uint64_t(rows.leaves[size_t(row)])), &rows,
+                       &castBy[size_t(row)]);
+  });
+  for (const int64_t c : castBy) *cast += c;
+  return rows;
+}
+
+// Bounce by bounce from the dark on, so that what no light reaches stays dark however little it
+// absorbs; by place of received_.
+std::vector<Spectrum> FinalGather::Balance(const LeafRows& rows) const {
   const Spectrum most = this->Furnace();
-  const auto joined = [&](const Spectrum& before, const Spectrum& all, const Spectrum& reflected) {
-    const Spectrum now = Smaller(most, all - reflected + factor * reflected);
-    return before * float(1 - share) + now * float(share);
-  };
-  double reflected = 0;
-  for (size_t i = 0; i < leaves.size(); ++i) {
-    const size_t leaf = size_t(leaves[i]);
-    const LeafLight& g = gathered[i];
-    this->Receive(leaves[i], joined(polygonIrradiance_[leaf], g.irradiance, g.reflected));
-    const Element& element = hierarchy_[leaves[i]];
-    reflected +=
-        double(element.area) * double((element.reflectance * polygonIrradiance_[leaf]).Mean());
-    hasGathered_[leaf] = 1;
-    sampleDirect_[leaf] = g.direct;
-    for (size_t k = 0; k < kSamplesPerElement; ++k) {
-      sampleIrradiance_[leaf][k] =
-          joined(sampleIrradiance_[leaf][k], g.atSample[k], g.reflectedAtSample[k]);
+  std::vector<Spectrum> now = received_;
+  for (const int32_t leaf : rows.leaves) {
+    std::fill_n(now.begin() + int64_t(leaf) * kPlacesOfLeaf, kPlacesOfLeaf, Spectrum());
+  }
+  std::vector<Spectrum> next = now;
+  std::vector<float> power(rows.leaves.size()), gained(rows.leaves.size());
+  for (int bounce = 0; bounce < kMostBouncesOfLeaves; ++bounce) {
+    ParallelForEach(int64_t(rows.leaves.size()), 64, [&](int64_t row) {
+      const int32_t leaf = rows.leaves[size_t(row)];
+      const int64_t begin = rows.begin[size_t(row)];
+      const int64_t count = (rows.begin[size_t(row) + 1] - begin) / kSamplesPerElement;
+      Spectrum* const places = &next[size_t(leaf) * kPlacesOfLeaf];
+      places[kMean] = Spectrum();
+      for (int64_t k = 0; k < kSamplesPerElement; ++k) {
+        Spectrum sum;
+        for (int64_t r = begin + k * count; r < begin + (k + 1) * count; ++r) {
+          const LeafRay& ray = rows.rays[size_t(r)];
+          if (ray.element < 0) continue;
+          sum += ray.part * now[size_t(ray.element) * kPlacesOfLeaf + size_t(ray.place)];
+        }
+        places[k] = Smaller(most, rows.fromSources[size_t(row)][size_t(k)] + sum / float(count));
+        places[kMean] += places[k] / float(kSamplesPerElement);
+      }
+      const float area = hierarchy_[leaf].area;
+      power[size_t(row)] = area * places[kMean].Mean();
+      gained[size_t(row)] =
+          power[size_t(row)] - area * now[size_t(leaf) * kPlacesOfLeaf + kMean].Mean();
+    });
+    now.swap(next);
+    const double all = std::accumulate(power.begin(), power.end(), 0.0);
+    if (std::accumulate(gained.begin(), gained.end(), 0.0) <= kLeastGained * all) break;
+  }
+  return now;
+}
+
+void FinalGather::GatherAtLeaves(int rays, double share, uint64_t seed, int64_t* cast) {
+  const LeafRows rows = this->CastFromLeaves(rays, seed, cast);
+  if (rows.leaves.empty()) return;
+  const std::vector<Spectrum> balanced = this->Balance(rows);
+  double area = 0, reflected = 0;
+  for (const int32_t leaf : rows.leaves) {
+    for (size_t k = 0; k < kPlacesOfLeaf; ++k) {
+      Spectrum& e = received_[size_t(leaf) * kPlacesOfLeaf + k];
+      e = e * float(1 - share) + balanced[size_t(leaf) * kPlacesOfLeaf + k] * float(share);
     }
-    *cast += castBy[i];
+    const Element& element = hierarchy_[leaf];
+    const Spectrum& mean = received_[size_t(leaf) * kPlacesOfLeaf + kMean];
+    this->Receive(leaf, mean);
+    hasGathered_[size_t(leaf)] = 1;
+    area += double(element.area);
+    reflected += double(element.area) * double((element.reflectance * mean).Mean());
   }
   meanRadiosity_ = float(reflected / area);
-  for (const int32_t leaf : leaves) isUneven_[size_t(leaf)] = this->IsUneven(leaf);
+  for (const int32_t leaf : rows.leaves) isUneven_[size_t(leaf)] = this->IsUneven(leaf);
 }
 
 // How much more a facet of a leaf receives when it turns, by the leaf's irradiance vectors.
@@ -287,9 +301,10 @@ float FinalGather::TurnedTo(int32_t leaf, const Vec3f& from, const Vec3f& to) co
 // Some of its samples are much brighter than others.
 bool FinalGather::IsUneven(int32_t leaf) const {
   float least = std::numeric_limits<float>::max(), most = 0;
-  for (const Spectrum& irradiance : sampleIrradiance_[size_t(leaf)]) {
-    least = std::min(least, irradiance.Mean());
-    most = std::max(most, irradiance.Mean());
+  for (size_t k = 0; k < kSamplesPerElement; ++k) {
+    const float irradiance = received_[size_t(leaf) * kPlacesOfLeaf + k].Mean();
+    least = std::min(least, irradiance);
+    most = std::max(most, irradiance);
   }
   const float reflected = hierarchy_[leaf].reflectance.Mean() * (most - least);
   return most > kUneven * least && reflected > kUnevenOverMean * meanRadiosity_;
@@ -324,47 +339,56 @@ int FinalGather::TellingSample(int32_t leaf, const Vec3f& place, const Vec3f& no
     ++*rays;
     if (!rayScene_.Occluded(place + above, position + above)) return nearest;
     isHidden[size_t(nearest)] = true;
-    const auto& atSample = sampleIrradiance_[size_t(leaf)];
-    if (darkest < 0 || atSample[size_t(nearest)].Mean() < atSample[size_t(darkest)].Mean()) {
+    const Spectrum* const atSample = &received_[size_t(leaf) * kPlacesOfLeaf];
+    if (darkest < 0 || atSample[nearest].Mean() < atSample[darkest].Mean()) {
       darkest = nearest;
     }
   }
 }
 
-// That of the sample that tells of a place; before the leaf has gathered what links brought it.
-Spectrum FinalGather::IrradianceOfLeaf(int32_t leaf, const Vec3f& place, const Vec3f& normal,
-                                       int64_t* rays) const {
+// The same from the mean of its samples on.
+Spectrum FinalGather::TurnedFromMean(int32_t leaf, const Vec3f& to) const {
   const Element& element = hierarchy_[leaf];
-  if (hasGathered_[size_t(leaf)]) {
-    const int k = this->TellingSample(leaf, place, normal, rays);
-    if (k >= 0) {
-      return sampleIrradiance_[size_t(leaf)][size_t(k)] *
-             this->TurnedTo(leaf, element.samples[size_t(k)].normal, normal);
-    }
-  }
-  if (element.IsPolygon()) return polygonIrradiance_[size_t(leaf)];
+  if (element.IsPolygon()) return Spectrum(1.f);
   const VectorIrradiance& vectors = light_->irradiance[size_t(leaf)];
-  return (element.TurnsToAllSides() ? vectors.FromAllAround() : vectors).At(normal);
+  const VectorIrradiance light = element.TurnsToAllSides() ? vectors.FromAllAround() : vectors;
+  const Spectrum before = ElementIrradiance(element, vectors), after = light.At(to);
+  Spectrum turned(1.f);
+  for (int band = 0; band < 3; ++band) {
+    if (before[band] > 0) turned[band] = std::min(kMostOfMean, after[band] / before[band]);
+  }
+  return turned;
 }
 
 // Far away a leaf is as bright as it is in the mean. One nearer than its own size may be seen where
 // it is not: there light is followed for another bounce.
-FinalGather::Radiosity FinalGather::Met(const RayStart& from, const Vec3f& direction,
-                                        Random* random, int bounces, int64_t* rays) const {
+FinalGather::Seen FinalGather::Met(const RayStart& from, const Vec3f& direction, Random* random,
+                                   int bounces, int64_t* rays) const {
   ++*rays;
+  Seen seen;
   const RayHit hit = rayScene_.Closest(from, direction);
-  if (hit.face < 0) return {direct_.Lights().Radiance(direction) * float(kPi), {}, 0};
-  const TriangleMesh& mesh = hierarchy_.GetScene().mesh;
-  const Spectrum& reflectance = mesh.reflectance[size_t(hit.face)];
-  if (reflectance.IsBlack()) return {{}, {}, hit.distance};
+  if (hit.face < 0) {
+    seen.fromSources = direct_.Lights().Radiance(direction) * float(kPi);
+    return seen;
+  }
+  seen.distance = hit.distance;
+  const Spectrum& reflectance = hierarchy_.GetScene().mesh.reflectance[size_t(hit.face)];
+  if (reflectance.IsBlack()) return seen;
   const Side side = Dot(hit.front, direction) < 0 ? kFront : kBack;
   const Vec3f normal = side == kFront ? hit.front : -hit.front;
   const Vec3f place = from.position + direction * hit.distance;
   const int32_t leaf = this->LeafAt(hit.face, side, place);
-  if (leaf < 0) return {{}, {}, hit.distance};
+  if (leaf < 0) return seen;
   const Element& element = hierarchy_[leaf];
-  const Spectrum ofLeaf = reflectance * this->IrradianceOfLeaf(leaf, place, normal, rays);
-  if (bounces == 0 || hit.distance >= kNear * element.radius) return {{}, ofLeaf, hit.distance};
+  if (bounces == 0 || hit.distance >= kNear * element.radius) {
+    // The sample that tells of the place.
+    const int k = this->TellingSample(leaf, place, normal, rays);
+    seen.place = int64_t(leaf) * kPlacesOfLeaf + (k < 0 ? kMean : k);
+    seen.part = reflectance *
+                (k < 0 ? this->TurnedFromMean(leaf, normal)
+                       : Spectrum(this->TurnedTo(leaf, element.samples[size_t(k)].normal, normal)));
+    return seen;
+  }
 
   // One direction stands for all of them.
   const GatherPoint at{place, normal, normal};
@@ -372,9 +396,12 @@ FinalGather::Radiosity FinalGather::Met(const RayStart& from, const Vec3f& direc
   CoordinateSystem(normal, &u, &v);
   const Vec3f d = CosineHemisphere(random->Uniform(), random->Uniform());
   const Spectrum direct = direct_.Sample(at, 1, random->Bits(), rays).irradiance;
-  const Radiosity next =
+  const Seen next =
       this->Met({place, normal}, u * d.x + v * d.y + normal * d.z, random, bounces - 1, rays);
-  return {reflectance * (direct + next.fromSources), reflectance * next.fromLeaves, hit.distance};
+  seen.fromSources = reflectance * (direct + next.fromSources);
+  seen.part = reflectance * next.part;
+  seen.place = next.place;
+  return seen;
 }
 
 namespace {
@@ -396,8 +423,9 @@ Vec2f SobolPoint(uint32_t index, uint64_t scramble) {
 
 // Each point has an aligned block of the sequence, so that neighbours fill the gaps between each
 // other's rays.
-void FinalGather::GatherBatch(const GatherPoint* points, int count, const BounceRays& rays,
-                              BounceSum* sums, int64_t* cast) const {
+template <class Use>
+void FinalGather::CastBatch(const GatherPoint* points, int count, const BounceRays& rays,
+                            int64_t* cast, const Use& use) const {
   // Directions, sorted.
   struct Ray {
     Vec2f place;
@@ -409,8 +437,6 @@ void FinalGather::GatherBatch(const GatherPoint* points, int count, const Bounce
   std::array<Vec3f, kPointsOfBatch> u, v;
   for (int i = 0; i < count; ++i) {
     CoordinateSystem(points[i].normal, &u[size_t(i)], &v[size_t(i)]);
-    sums[i] = {};
-    sums[i].rays = rays.count;
   }
   const int all = count * rays.count;
   for (int begin = 0; begin < all; begin += kRaysOfBatch) {
@@ -440,14 +466,8 @@ void FinalGather::GatherBatch(const GatherPoint* points, int count, const Bounce
             u[size_t(ray.point)] * d.x + v[size_t(ray.point)] * d.y + at.normal * d.z;
         if (Dot(direction, at.geometricNormal) <= 0) continue;
         Random random(HashBits(rays.seed, ray.index));
-        const Radiosity met =
-            this->Met({at.position, at.geometricNormal}, direction, &random, kMostBounces, cast);
-        const Spectrum light = met.fromSources + met.fromLeaves;
-        BounceSum& sum = sums[ray.point];
-        sum.fromSources += met.fromSources;
-        sum.fromLeaves += met.fromLeaves;
-        sum.squares += light.r * light.r + light.g * light.g + light.b * light.b;
-        if (met.distance > 0) sum.nearness += 1 / met.distance;
+        use(begin + r,
+            this->Met({at.position, at.geometricNormal}, direction, &random, kMostBounces, cast));
       }
     }
   }
@@ -466,8 +486,16 @@ std::vector<BounceSum> FinalGather::Bounces(const std::vector<GatherPoint>& poin
       const int count = int(std::min<int64_t>(kPointsOfBatch, int64_t(points.size()) - first));
       BounceRays own = rays;
       own.first += uint32_t(first);
-      this->GatherBatch(&points[size_t(first)], count, own, &sums[size_t(first)],
-                        &castBy[size_t(begin + i)]);
+      BounceSum* const sum = &sums[size_t(first)];
+      for (int p = 0; p < count; ++p) sum[p].rays = rays.count;
+      this->CastBatch(&points[size_t(first)], count, own, &castBy[size_t(begin + i)],
+                      [&](int ray, const Seen& seen) {
+                        const Spectrum light = this->RadiosityOf(seen);
+                        BounceSum& of = sum[ray / rays.count];
+                        of.radiosity += light;
+                        of.squares += light.r * light.r + light.g * light.g + light.b * light.b;
+                        if (seen.distance > 0) of.nearness += 1 / seen.distance;
+                      });
     });
   }
   for (const int64_t c : castBy) *cast += c;

@@ -18,18 +18,17 @@ namespace lambert {
 
 /// Sums over rays that left a point, cosine-weighted over its hemisphere: one more bounce of light.
 struct BounceSum {
-  Spectrum fromSources, fromLeaves;  ///< radiosity of what they met; emitters apart, W/m2
-  float squares = 0;                 ///< |radiosity|^2, all bands
-  float nearness = 0;                ///< one over the distance of what they met, 1/m
+  Spectrum radiosity;  ///< of what they met; emitters apart, W/m2
+  float squares = 0;   ///< |radiosity|^2, all bands
+  float nearness = 0;  ///< one over the distance of what they met, 1/m
   int rays = 0;
 
   BounceSum& operator+=(const BounceSum& b) {
-    fromSources += b.fromSources, fromLeaves += b.fromLeaves;
-    squares += b.squares, nearness += b.nearness, rays += b.rays;
+    radiosity += b.radiosity, squares += b.squares, nearness += b.nearness, rays += b.rays;
     return *this;
   }
   /// Irradiance, W/m2.
-  Spectrum Mean() const { return (fromSources + fromLeaves) / float(std::max(1, rays)); }
+  Spectrum Mean() const { return radiosity / float(std::max(1, rays)); }
   /// Variance of a ray, sum of the bands, (W/m2)^2.
   float Variance() const {
     const Spectrum mean = this->Mean();
@@ -67,40 +66,54 @@ class FinalGather {
   /// together give to a point is never more. Infinite as that of the furnace.
   Spectrum Brightest() const;
 
-  /// Replaces what the leaves received, at first over links, by what they gather, one bounce;
+  /// Replaces what the leaves received, at first over links, by the light that is in balance over
+  /// rays: what each receives from sources, and over its rays from the others, to the last bounce.
   /// `rays` over the hemisphere of a leaf of mean area, in proportion to area. `share` of what they
-  /// have then is new, (0, 1]; less than 1 only where they have gathered before: shares of 1/2,
-  /// 1/3, ... leave the mean of all rounds from the one before them on. Adds the rays cast to
-  /// `cast`.
+  /// have then is new, (0, 1]. Adds the rays cast to `cast`.
   void GatherAtLeaves(int rays, double share, uint64_t seed, int64_t* cast);
 
  private:
-  /// Radiosity of what a ray meets, emitters left out, W/m2; of the sky pi times its radiance.
-  struct Radiosity {
-    Spectrum fromSources, fromLeaves;
+  /// What is known of the light that a leaf receives: at its samples, and their mean.
+  static constexpr int kMean = kSamplesPerElement, kPlacesOfLeaf = kSamplesPerElement + 1;
+  /// What a ray meets, emitters left out: radiosity from sources, and the part that a leaf sends of
+  /// what one of its places receives.
+  struct Seen {
+    Spectrum fromSources;  ///< W/m2; of the sky pi times its radiance
+    Spectrum part;
+    int64_t place = -1;  ///< of received_; -1: no leaf
     float distance = 0;  ///< of what it meets, m; 0: nothing
   };
-  Radiosity Met(const RayStart& from, const Vec3f& direction, Random* random, int bounces,
-                int64_t* rays) const;
+  Seen Met(const RayStart& from, const Vec3f& direction, Random* random, int bounces,
+           int64_t* rays) const;
+  Spectrum RadiosityOf(const Seen& seen) const {
+    return seen.place < 0 ? seen.fromSources
+                          : seen.fromSources + seen.part * received_[size_t(seen.place)];
+  }
   int32_t LeafAt(int64_t face, Side side, const Vec3f& position) const;
-  /// What a leaf receives in the mean, W/m2.
-  struct LeafLight {
-    Spectrum irradiance;
-    Spectrum reflected;  ///< part of it that leaves reflected; the rest came from sources
-    std::array<Spectrum, kSamplesPerElement> atSample, reflectedAtSample;
-    std::array<Spectrum, kSamplesPerElement> direct;  ///< straight from the sources, at the samples
+  /// The rays of the leaves that gather, a row of them a sample.
+  struct LeafRay {
+    int32_t element = -1;  ///< the leaf that they see; -1: none
+    int32_t place = 0;     ///< of it
+    Spectrum part;         ///< that it sends of what its place receives
   };
-  LeafLight GatherAtLeaf(int32_t leaf, int rays, uint64_t seed, int64_t* cast) const;
-  Spectrum BalancingFactor(const std::vector<int32_t>& leaves,
-                           const std::vector<LeafLight>& gathered) const;
+  struct LeafRows {
+    std::vector<int32_t> leaves;
+    std::vector<int64_t> begin;  ///< of each leaf's rays, those of its samples in a row; one more
+    std::vector<LeafRay> rays;
+    /// From sources, directly and over one bounce, W/m2.
+    std::vector<std::array<Spectrum, kSamplesPerElement>> fromSources;
+  };
+  LeafRows CastFromLeaves(int rays, uint64_t seed, int64_t* cast);
+  void CastFromLeaf(size_t row, uint64_t seed, LeafRows* rows, int64_t* cast);
+  std::vector<Spectrum> Balance(const LeafRows& rows) const;
   float TurnedTo(int32_t leaf, const Vec3f& from, const Vec3f& to) const;
-  Spectrum IrradianceOfLeaf(int32_t leaf, const Vec3f& place, const Vec3f& normal,
-                            int64_t* rays) const;
+  Spectrum TurnedFromMean(int32_t leaf, const Vec3f& to) const;
   int TellingSample(int32_t leaf, const Vec3f& place, const Vec3f& normal, int64_t* rays) const;
   bool IsUneven(int32_t leaf) const;
   void Receive(int32_t leaf, const Spectrum& irradiance);
-  void GatherBatch(const GatherPoint* points, int count, const BounceRays& rays, BounceSum* sums,
-                   int64_t* cast) const;
+  template <class Use>
+  void CastBatch(const GatherPoint* points, int count, const BounceRays& rays, int64_t* cast,
+                 const Use& use) const;
 
   /// A triangle or patch as a part of what was cut: it lies where the plane is not negative, its
   /// earlier siblings on the other side.
@@ -116,12 +129,11 @@ class FinalGather {
   ElementLight* light_;
   const DirectLight direct_;
   std::array<std::vector<int32_t>, 2>
-      elementOfFace_;                        ///< by side: the element that holds the face,
-                                             ///< a leaf or a triangle; -1 where none does
-  std::vector<Spectrum> polygonIrradiance_;  ///< by element, of triangles and patches
-  /// By element, of leaves that have gathered: what their samples receive, W/m2. A part of a leaf
-  /// that is hidden is dark, and what sees the leaf sees the other.
-  std::vector<std::array<Spectrum, kSamplesPerElement>> sampleIrradiance_;
+      elementOfFace_;  ///< by side: the element that holds the face,
+                       ///< a leaf or a triangle; -1 where none does
+  /// Irradiance by element and place, W/m2: a part of a leaf that is hidden is dark, and what sees
+  /// the leaf sees the other.
+  std::vector<Spectrum> received_;
   std::vector<std::array<Spectrum, kSamplesPerElement>> sampleDirect_;  ///< of it, from sources
   std::vector<uint8_t> hasGathered_;                                    ///< by element
   std::vector<uint8_t> isUneven_;  ///< by element: its samples may lie on two sides of a wall

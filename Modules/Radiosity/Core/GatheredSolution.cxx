@@ -11,14 +11,10 @@ namespace lambert {
 
 namespace {
 
-/// Bounces that leaves gather before points do: the first forget what links made of the light, the
-/// mean of the others stays.
-constexpr uint64_t kForgettingRounds = 5, kLeafRounds = 8;
-
 /// Rays of every point and of a leaf of mean area over the hemisphere, times the error; what their
 /// scatter may leave, of the wanted error.
-constexpr double kFirstRays = 0.4, kLeafRays = 0.8, kNoiseShare = 0.7;
-constexpr int kLeastFirstRays = 2, kLeastLeafRays = 4, kMostLeafRays = 64;
+constexpr double kFirstRays = 0.4, kLeafRays = 3.2, kNoiseShare = 0.7;
+constexpr int kLeastFirstRays = 2, kLeastLeafRays = 16, kMostLeafRays = 256;
 /// No point casts more than so many times the rays of the first round.
 constexpr int kMostOfFirst = 32;
 
@@ -75,23 +71,13 @@ struct GatheredSolution::Implementation {
         leafRays(options.leafRays),
         seed(options.points.seed),
         rays(rays_) {
-    for (uint64_t round = 1; round <= kLeafRounds && leafRays > 0; ++round) {
-      this->GatherAtLeaves(round >= kForgettingRounds ? leafRays : leafRays / 2,
-                           round <= kForgettingRounds, HashBits(seed, round));
-    }
+    if (leafRays > 0) gather.GatherAtLeaves(leafRays, 1, HashBits(seed, 1), rays);
     mesh.reset(new GatheredMesh(hierarchy, gather, rayScene.Epsilon(), litSides, options.points));
-  }
-
-  /// Joins what they find to what they have, by rays; or forgets that.
-  void GatherAtLeaves(int count, bool forgets, uint64_t roundSeed) {
-    joinedRays = forgets ? count : joinedRays + count;
-    gather.GatherAtLeaves(count, double(count) / joinedRays, roundSeed, rays);
   }
 
   FinalGather gather;
   std::unique_ptr<GatheredMesh> mesh;
-  int leafRays;
-  int joinedRays = 0;  ///< of the rounds that leaves have the mean of
+  int leafRays;  ///< of the rounds that leaves have the mean of
   const uint64_t seed;
   uint64_t calls = 0;  ///< of Gather
   int64_t* rays;
@@ -107,8 +93,11 @@ GatheredSolution::~GatheredSolution() = default;
 void GatheredSolution::Gather(double noise, const ProgressCallback& progress) {
   Implementation& self = *implementation_;
   if (self.calls++ > 0 && self.leafRays > 0) {
-    self.leafRays *= 2;
-    self.GatherAtLeaves(self.leafRays, false, HashBits(self.seed, kLeafRounds + self.calls));
+    // Half as many as they had, joined to them.
+    const int more = (self.leafRays + 1) / 2;
+    self.leafRays += more;
+    self.gather.GatherAtLeaves(more, double(more) / self.leafRays, HashBits(self.seed, self.calls),
+                               self.rays);
   }
   self.mesh->Improve(noise, self.rays, progress);
   self.mesh->GatherAtPoints(self.rays, progress);

@@ -16,9 +16,8 @@
 namespace lambert {
 
 struct GatheredSolutionOptions {
-  /// Rays over the hemisphere of a leaf of mean area in each of the rounds that it has the mean of
-  /// at first; 0: leaves keep what they had.
-  int leafRays = 8;
+  /// Rays over the hemisphere of a leaf of mean area, at first; 0: leaves keep what they had.
+  int leafRays = 32;
   GatheredPointsOptions points;
 };
 
