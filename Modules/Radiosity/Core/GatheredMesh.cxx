@@ -7,6 +7,7 @@
 
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
+#include "Radiosity/Core/VertexFitting.h"
 
 namespace lambert {
 
@@ -101,7 +102,7 @@ double GatheredMesh::Error(int64_t triangle, const LightScale& scale) const {
                  ErrorWeight(light, scale.mean, scale.meanSquare);
   const auto probed = probed_.find(this->Key(triangle));
   if (probed != probed_.end()) {
-    const double brightest = std::max(light, probed->second.light);
+    const double brightest = std::max(light, std::sqrt(SquaredNorm(probed->second.irradiance)));
     error = std::max(
         error, probed->second.deviation * ErrorWeight(brightest, scale.mean, scale.meanSquare));
   }
@@ -154,7 +155,8 @@ void GatheredMesh::ProbeMiddles(double wanted, int64_t* rays) {
     double error = 0;
     for (size_t i = begin; i < end; ++i) {
       const Middle& middle = probed_[this->Key(few[i])];
-      const double light = std::max(middle.light, this->MeanLight(few[i]));
+      const double light =
+          std::max(std::sqrt(SquaredNorm(middle.irradiance)), this->MeanLight(few[i]));
       error += this->Area(few[i]) / scale.area * middle.deviation *
                ErrorWeight(light, scale.mean, scale.meanSquare);
     }
@@ -191,9 +193,25 @@ void GatheredMesh::Probe(const std::vector<int64_t>& triangles, int64_t* rays) {
       noise += double(variance_[size_t(p)]) / 9;
     }
     const double deviation = SquaredNorm(gathered[i].irradiance - expected);
-    probed_[this->Key(triangles[i])] = {std::max(0.0, deviation - kScatter * noise),
-                                        std::sqrt(SquaredNorm(gathered[i].irradiance))};
+    probed_[this->Key(triangles[i])] = {gathered[i].irradiance,
+                                        std::max(0.0, deviation - kScatter * noise)};
   }
+}
+
+RadiositySolution GatheredMesh::Deliver() const {
+  std::vector<FittedTriangle> triangles(mesh_.Triangles().size());
+  ParallelForEach(int64_t(triangles.size()), 1024, [&](int64_t t) {
+    FittedTriangle& triangle = triangles[size_t(t)];
+    triangle.points = mesh_.PointsOfTriangles()[size_t(t)];
+    triangle.area = float(this->Area(t));
+    const auto probed = probed_.find(this->Key(t));
+    if (probed != probed_.end()) {
+      triangle.middle = probed->second.irradiance;
+    } else {
+      for (const int32_t p : triangle.points) triangle.middle += irradiance_[size_t(p)] / 3.f;
+    }
+  });
+  return mesh_.Deliver(FitVertices(irradiance_, triangles));
 }
 
 int32_t GatheredMesh::PatchOf(int64_t triangle) {

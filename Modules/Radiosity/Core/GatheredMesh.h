@@ -45,7 +45,8 @@ class GatheredMesh {
   bool CutTriangles(double wanted, int64_t* rays);
   /// There are as many triangles as there may be.
   bool IsFull() const;
-  RadiositySolution Deliver() const { return mesh_.Deliver(irradiance_); }
+  /// Light at the points, fitted to what is known in the middles of triangles.
+  RadiositySolution Deliver() const;
 
  private:
   /// A patch that was cut in this round, as it was: what its points would have interpolated.
@@ -110,10 +111,11 @@ class GatheredMesh {
   const int64_t firstTriangles_;
   std::vector<Spectrum> irradiance_;  ///< per point
   std::vector<float> variance_;       ///< per point, of the irradiance
-  /// What is found in the middle of a triangle: its squared deviation from what the corners
-  /// interpolate, and the norm of the irradiance, W/m2.
+  /// What is found in the middle of a triangle: its irradiance, W/m2, and the squared deviation of
+  /// that from what the corners interpolate, beyond scatter.
   struct Middle {
-    double deviation = 0, light = 0;
+    Spectrum irradiance;
+    double deviation = 0;
   };
   std::unordered_map<uint64_t, Middle> probed_;  ///< by triangle
   std::vector<uint8_t> isNew_;                   ///< per point: gathered in this round
