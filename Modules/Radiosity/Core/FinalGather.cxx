@@ -229,7 +229,8 @@ FinalGather::LeafRows FinalGather::CastFromLeaves(int rays, uint64_t seed, int64
 }
 
 // Bounce by bounce from the dark on, so that what no light reaches stays dark however little it
-// absorbs; by place of received_.
+// absorbs; by place of received_. How facets turn within a leaf is left out: in the mean it neither
+// adds nor takes light, but over the few rays of closed things it may add more than is absorbed.
 std::vector<Spectrum> FinalGather::Balance(const LeafRows& rows) const {
   const Spectrum most = this->Furnace();
   std::vector<Spectrum> now = received_;
@@ -384,9 +385,9 @@ FinalGather::Seen FinalGather::Met(const RayStart& from, const Vec3f& direction,
     // The sample that tells of the place.
     const int k = this->TellingSample(leaf, place, normal, rays);
     seen.place = int64_t(leaf) * kPlacesOfLeaf + (k < 0 ? kMean : k);
-    seen.part = reflectance *
-                (k < 0 ? this->TurnedFromMean(leaf, normal)
-                       : Spectrum(this->TurnedTo(leaf, element.samples[size_t(k)].normal, normal)));
+    seen.part = reflectance;
+    seen.turned = k < 0 ? this->TurnedFromMean(leaf, normal)
+                        : Spectrum(this->TurnedTo(leaf, element.samples[size_t(k)].normal, normal));
     return seen;
   }
 
@@ -400,6 +401,7 @@ FinalGather::Seen FinalGather::Met(const RayStart& from, const Vec3f& direction,
       this->Met({place, normal}, u * d.x + v * d.y + normal * d.z, random, bounces - 1, rays);
   seen.fromSources = reflectance * (direct + next.fromSources);
   seen.part = reflectance * next.part;
+  seen.turned = next.turned;
   seen.place = next.place;
   return seen;
 }

@@ -76,18 +76,19 @@ class FinalGather {
   /// What is known of the light that a leaf receives: at its samples, and their mean.
   static constexpr int kMean = kSamplesPerElement, kPlacesOfLeaf = kSamplesPerElement + 1;
   /// What a ray meets, emitters left out: radiosity from sources, and the part that a leaf sends of
-  /// what one of its places receives.
+  /// what one of its places receives, times how much more its facet there does.
   struct Seen {
     Spectrum fromSources;  ///< W/m2; of the sky pi times its radiance
-    Spectrum part;
+    Spectrum part, turned;
     int64_t place = -1;  ///< of received_; -1: no leaf
     float distance = 0;  ///< of what it meets, m; 0: nothing
   };
   Seen Met(const RayStart& from, const Vec3f& direction, Random* random, int bounces,
            int64_t* rays) const;
   Spectrum RadiosityOf(const Seen& seen) const {
-    return seen.place < 0 ? seen.fromSources
-                          : seen.fromSources + seen.part * received_[size_t(seen.place)];
+    return seen.place < 0
+               ? seen.fromSources
+               : seen.fromSources + seen.part * seen.turned * received_[size_t(seen.place)];
   }
   int32_t LeafAt(int64_t face, Side side, const Vec3f& position) const;
   /// The rays of the leaves that gather, a row of them a sample.

@@ -39,5 +39,32 @@ TEST(FinalGather, LightIsFollowedToTheLastBounce) {
   EXPECT_EQ(BounceInCube(0.9f, 1, 50), BounceInCube(0.9f, 1, 0));
 }
 
+TEST(FinalGather, FacetsThatTurnWithinALeafAddNoLight) {
+  // A furnace in one leaf that faces all ways, of which links knew that its light comes from above,
+  // and a lamp outside: what is there is brighter than the furnace could ever be.
+  testing::ModelledScene modelled;
+  TriangleMesh& mesh = modelled.scene.mesh;
+  testing::AddSphere(&mesh, {0, 0, 0}, 1, 8, Spectrum(0.9f), Spectrum(0.01f), true);
+  testing::AddQuad(&mesh, {0, 0, 3}, {1, 0, 0}, {0, 1, 0}, Spectrum(0.f), Spectrum(100.f), 1, 1, 1);
+  modelled.Model();
+  ElementLight light;
+  light.Grow(*modelled.hierarchy);
+  for (VectorIrradiance& irradiance : light.irradiance) {
+    irradiance.isotropic = Spectrum(0.1f);
+    irradiance.vector.fill({0, 0, 10});
+  }
+  FinalGather gather(*modelled.hierarchy, *modelled.rayScene, &light);
+  int64_t rays = 0;
+  gather.GatherAtLeaves(1024, 1, 1, &rays);
+  double inside = 0;
+  for (int32_t leaf = 0; leaf < modelled.hierarchy->Size(); ++leaf) {
+    const Element& element = (*modelled.hierarchy)[leaf];
+    if (!element.IsLeaf() || element.side == kBack || !(element.area > 2)) continue;
+    EXPECT_FALSE(element.IsPolygon());
+    inside = double(light.radiosity[size_t(leaf)].g);
+  }
+  EXPECT_NEAR(inside, 0.1, 0.025);  // Twelve rays to its facets from each of four samples.
+}
+
 }  // namespace
 }  // namespace lambert
