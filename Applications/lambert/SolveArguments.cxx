@@ -139,20 +139,7 @@ void SolveArguments::AddMethodsTo(CLI::App* command) {
 void SolveArguments::Check() const {
   RequireOptionsOfMethod();
   lights.Check();
-  if (!IsSolutionFileName(output) && !IsLitModelFileName(output)) {
-    throw CLI::ValidationError(
-        "--output", "the name has to end in .vtp, .vtpc, .ply, .glb, .gltf, .html or .obj");
-  }
-  if (IsLitModelFileName(output) && (introducedTriangles || !representations.empty())) {
-    throw CLI::ValidationError(
-        "--output",
-        "glTF, HTML and OBJ show all surfaces in one way; leave --introduced and "
-        "--represent to .vtp, .vtpc and .ply");
-  }
-  if (FileEnding(output) == ".obj" && model.keepTextures) {
-    throw CLI::ValidationError("--keep-textures",
-                               "OBJ has no light beside a texture; leave it to glTF and HTML");
-  }
+  RequireOptionsOfOutputs();
   if (probe.empty() != probeOutput.empty()) {
     throw CLI::ValidationError("--probe", "--probe and --probe-output belong together");
   }
@@ -191,6 +178,37 @@ std::vector<OutputOfRun> SolveArguments::Outputs() const {
     }
   }
   return outputs;
+}
+
+void SolveArguments::RequireOptionsOfOutputs() const {
+  const auto refuse = [](bool isWrong, const char* option, const char* sentence) {
+    if (isWrong) throw CLI::ValidationError(option, sentence);
+  };
+  const bool isModel = IsLitModelFileName(output), isObj = FileEnding(output) == ".obj";
+
+  // Of the solved scene.
+  refuse(!IsSolutionFileName(output) && !isModel, "--output",
+         "the name has to end in .vtp, .vtpc, .ply, .glb, .gltf, .html or .obj");
+  refuse(isModel && (introducedTriangles || !representations.empty()), "--output",
+         "glTF, HTML and OBJ show all surfaces in one way; leave --introduced and --represent to "
+         ".vtp, .vtpc and .ply");
+  refuse(bothSides && FileEnding(output) != ".ply", "--both-sides",
+         "is for PLY; all other outputs have both sides as it is");
+
+  // Of textures.
+  const bool isSizeGiven = command_->count("--baked-size") > 0;
+  refuse(model.keepTextures && isObj, "--keep-textures",
+         "OBJ has no light beside a texture; leave it to glTF and HTML");
+  refuse(model.keepTextures && !isModel, "--keep-textures",
+         "is for glTF and HTML; no other output has textures to keep");
+  refuse(isSizeGiven && !isModel, "--baked-size",
+         "is for glTF, HTML and OBJ; textures are baked into no other output");
+  refuse(isSizeGiven && model.keepTextures, "--baked-size",
+         "nothing is baked where --keep-textures keeps the textures");
+
+  // Of pictures.
+  refuse(dodgingAndBurning && (image.empty() || !falseColors.empty()), "--tone",
+         "local is for a picture alone; give --image, without --false-colors");
 }
 
 void SolveArguments::RequireOptionsOfMethod() const {

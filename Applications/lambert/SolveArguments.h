@@ -73,6 +73,8 @@ struct SolveArguments {
   int MostPages() const;
   /// Throws CLI::ValidationError where an option was given that is another method's.
   void RequireOptionsOfMethod() const;
+  /// Throws CLI::ValidationError where an option was given of which no output would have anything.
+  void RequireOptionsOfOutputs() const;
 
   CLI::App* command_ = nullptr;
 };

@@ -26,7 +26,7 @@ void AddToneOptions(CLI::App* command, ToneMappingOptions* tone, bool* dodgingAn
             tone->curve = curves.at(name);
             *dodgingAndBurning = name == "local";
           },
-          "How luminance is compressed; local: pictures expose every place for its surround")
+          "How luminance is compressed; local: --image alone exposes every place for its surround")
       ->check(CLI::IsMember({"photographic", "local", "linear", "filmic"}))
       ->default_str("photographic");
   command->add_option("--key", tone->key, "Display luminance of the mean of what is shown, (0, 1]")
@@ -85,7 +85,8 @@ void AddTexelDensity(CLI::App* command, CLI::Option* lightMap, AtlasOptions* atl
 void AddRepresentationOptions(CLI::App* command, CLI::Option* lightMap, SolveArguments* arguments) {
   CLI::Option* introduced = command->add_option_function<int64_t>(
       "--introduced", [=](int64_t most) { arguments->introducedTriangles = most; },
-      "Light map: triangles that refinement may add to surfaces lit by their points");
+      "Light map beside .vtp, .vtpc, .ply: triangles that refinement may add to surfaces lit by "
+      "their points");
   introduced->check(CLI::NonNegativeNumber)->needs(lightMap);
   command
       ->add_flag(
@@ -106,7 +107,8 @@ void AddRepresentationOptions(CLI::App* command, CLI::Option* lightMap, SolveArg
                   kind == "points" ? Representation::Points : Representation::LightMap;
             }
           },
-          "MATERIAL:points|lightmap, whatever refinement did to it")
+          "Light map beside .vtp, .vtpc, .ply: MATERIAL:points|lightmap, whatever refinement did "
+          "to it")
       ->allow_extra_args(false)
       ->needs(lightMap);
 }
@@ -130,12 +132,14 @@ void AddMapOutputOptions(CLI::App* command, CLI::Option* lightMap, SolveArgument
       ->default_str("hdr")
       ->needs(lightMap);
   command
-      ->add_flag("--keep-textures", arguments->model.keepTextures,
-                 "glTF, HTML: textured surfaces keep their images, and are lit at their points")
+      ->add_flag(
+          "--keep-textures", arguments->model.keepTextures,
+          "Light map, glTF, HTML: textured surfaces keep their images, and are lit at their points")
       ->needs(lightMap);
   command
-      ->add_option("--baked-size", arguments->model.bakedSize,
-                   "glTF, HTML, OBJ: texels along a side of a page that textures are baked into")
+      ->add_option(
+          "--baked-size", arguments->model.bakedSize,
+          "Light map, glTF, HTML, OBJ: texels along a side of a page that textures are baked into")
       ->check(CLI::Range(16, 16384))
       ->capture_default_str()
       ->needs(lightMap);

@@ -43,6 +43,23 @@ fails(2, "solve", CORNELL_BOX, "-o", out, "--image", picture, "--false-colors", 
 fails(2, "solve", CORNELL_BOX, "-o", out, "--false-colors", "lux", says=["--image"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--probe-gather", says=["--probe"])
 
+# Nor is an option taken of which no output would have anything.
+for name, options, says in ((out, ["--lightmap", temporary("map.vtp"), "--keep-textures"], ["--keep-textures", "glTF"]),
+                            (out, ["--lightmap", temporary("map.vtp"), "--baked-size", "512"], ["--baked-size", "glTF"]),
+                            (temporary("never.ply"), ["--lightmap", temporary("map.vtp"), "--baked-size", "512"],
+                             ["--baked-size"]),
+                            (temporary("never.glb"), ["--lightmap", temporary("map.vtp"), "--keep-textures", "--baked-size",
+                                                      "512"], ["--baked-size", "--keep-textures"]),
+                            (temporary("never.glb"), ["--lightmap", temporary("map.vtp"), "--introduced", "9"],
+                             ["--introduced"]),
+                            (temporary("never.glb"), ["--tone", "local"], ["--tone", "local", "--image"]),
+                            (temporary("never.ply"), ["--tone", "local"], ["--tone", "local", "--image"]),
+                            (out, ["--image", picture, "--false-colors", "lux", "--tone", "local"],
+                             ["--tone", "--false-colors"]),
+                            (temporary("never.glb"), ["--both-sides"], ["--both-sides", "PLY"])):
+    fails(2, "solve", CORNELL_BOX, "-o", name, *options, says=says)
+    assert not os.path.exists(name)
+
 # No output may write over what is read or over another output.
 scene = temporary("scene.ply")
 fails(2, "solve", scene, "-o", os.path.join(os.path.dirname(scene), ".", "scene.ply"), says=["write over", "SCENE"])

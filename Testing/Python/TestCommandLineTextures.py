@@ -34,11 +34,12 @@ with open(scene, "w") as file:
 camera = "--camera", "1,1.6,3.6,1,0.3,0.5,40"
 # Light as it is, dark enough that nothing clips: what is shown is proportional to it.
 common = scene, "--error", "0.03", "--tone", "linear", "--exposure", "-2", *camera
-light_map = "--lightmap", temporary("map.vtp"), "--page-size", "256", "--baked-size", "600"
+keeping = "--lightmap", temporary("map.vtp"), "--page-size", "256", "--keep-textures"
+light_map = *keeping[:4], "--baked-size", "600"
 by_points, baked, kept = temporary("points.glb"), temporary("baked.glb"), temporary("kept.glb")
 told = solve(*common, "-o", by_points)["lit_model"]
 told_of_baked = solve(*common, *light_map, "-o", baked)["lit_model"]
-told_of_kept = solve(*common, *light_map, "--keep-textures", "-o", kept)["lit_model"]
+told_of_kept = solve(*common, *keeping, "-o", kept)["lit_model"]
 assert told["images"] == 1 and told["baked_texels"] == told_of_kept["baked_texels"] == 0
 assert told_of_baked["baked_texels"] == 512 * 512  # The largest multiple of the page's
 insist_on_valid(by_points, baked, kept)
@@ -107,7 +108,7 @@ fails(2, "solve", scene, "-o", baked, *light_map[:2], "--baked-size", "0", says=
 if lambert.vtkRadiosityImageWriter.IsDisplayAvailable():
     shots = {}
     with Browser(320, 240) as browser:
-        for name, more in (("points", ()), ("baked", light_map), ("kept", (*light_map, "--keep-textures"))):
+        for name, more in (("points", ()), ("baked", light_map), ("kept", keeping)):
             html = temporary(name + ".html")
             solve(*common, *more, "-o", html)
             browser.show(html, "#bare")
