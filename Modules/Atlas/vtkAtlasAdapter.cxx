@@ -81,6 +81,16 @@ void JoinPoints(const std::vector<int64_t>& shared, TriangleMesh* mesh) {
   mesh->normals.clear();
   mesh->uvs.clear();
 }
+
+/// What texture coordinates are of.
+void AddAtlasFields(const RadiosityAtlas& atlas, vtkFieldData* fields) {
+  fields->AddArray(
+      ArrayFromNumbers<vtkIntArray>(Names::AtlasPageSize(), std::vector<int>{atlas.pageSize}));
+  fields->AddArray(
+      ArrayFromNumbers<vtkIntArray>(Names::AtlasPadding(), std::vector<int>{atlas.padding}));
+  fields->AddArray(ArrayFromNumbers<vtkDoubleArray>(Names::AtlasTexelSize(),
+                                                    std::vector<double>{atlas.texelSize}));
+}
 }  // namespace
 
 RadiosityAtlas AtlasFromPolyData(vtkPolyData* input, TriangleMesh* mesh,
@@ -134,18 +144,23 @@ void PagesFromLightMap(const LightMap& map, vtkMultiBlockDataSet* output) {
 void PolyDataFromRepresentedScene(const RepresentedScene& represented, Scene scene,
                                   vtkPolyData* output) {
   RepresentedMesh joined = JoinRepresentations(represented);
+  for (const int64_t face : joined.inputFace) {
+    joined.mesh.surfaceId.push_back(scene.mesh.surfaceId[static_cast<size_t>(face)]);
+  }
   scene.mesh = std::move(joined.mesh);
   PolyDataFromScene(scene, output);
   vtkPointData* points = output->GetPointData();
   points->AddArray(ArrayFromTuples(Names::LightMapTCoords(), joined.lightMapCoords));
   points->AddArray(ArrayFromTuples(Names::Irradiance(), joined.irradiance));
-  output->GetCellData()->AddArray(ArrayFromNumbers<vtkIntArray>(Names::PageId(), joined.page));
-  output->GetFieldData()->AddArray(ArrayFromNumbers<vtkIntArray>(
-      Names::AtlasPadding(), std::vector<int>{represented.atlas.padding}));
+  points->AddArray(ArrayFromNumbers<vtkIdTypeArray>(Names::SharedPointId(), joined.sharedPoint));
+  vtkCellData* cells = output->GetCellData();
+  cells->AddArray(ArrayFromNumbers<vtkIntArray>(Names::ChartId(), joined.chart));
+  cells->AddArray(ArrayFromNumbers<vtkIntArray>(Names::PageId(), joined.page));
+  cells->AddArray(ArrayFromNumbers<vtkIdTypeArray>(Names::InputFaceId(), joined.inputFace));
   if (!joined.side.empty()) {
-    output->GetCellData()->AddArray(
-        ArrayFromNumbers<vtkUnsignedCharArray>(Names::Side(), joined.side));
+    cells->AddArray(ArrayFromNumbers<vtkUnsignedCharArray>(Names::Side(), joined.side));
   }
+  AddAtlasFields(represented.atlas, output->GetFieldData());
 }
 
 void PolyDataFromAtlas(const RadiosityAtlas& atlas, Scene scene, vtkPolyData* output,
@@ -156,13 +171,7 @@ void PolyDataFromAtlas(const RadiosityAtlas& atlas, Scene scene, vtkPolyData* ou
   vtkPointData* points = output->GetPointData();
   points->AddArray(ArrayFromTuples(Names::LightMapTCoords(), coordinates));
   points->AddArray(ArrayFromNumbers<vtkIdTypeArray>(Names::SharedPointId(), shared));
-  vtkFieldData* fields = output->GetFieldData();
-  fields->AddArray(
-      ArrayFromNumbers<vtkIntArray>(Names::AtlasPageSize(), std::vector<int>{atlas.pageSize}));
-  fields->AddArray(
-      ArrayFromNumbers<vtkIntArray>(Names::AtlasPadding(), std::vector<int>{atlas.padding}));
-  fields->AddArray(ArrayFromNumbers<vtkDoubleArray>(Names::AtlasTexelSize(),
-                                                    std::vector<double>{atlas.texelSize}));
+  AddAtlasFields(atlas, output->GetFieldData());
 
   vtkNew<vtkIntArray> charts, pages;
   charts->SetName(Names::ChartId());

@@ -30,8 +30,10 @@ LAMBERTATLAS_EXPORT RadiosityAtlas AtlasFromPolyData(vtkPolyData* input, Triangl
 LAMBERTATLAS_EXPORT void PagesFromLightMap(const LightMap& map, vtkMultiBlockDataSet* output);
 
 /// Fills `output` with the faces of `represented`, those of the light map first, and the tables of
-/// `scene`. At the points: Irradiance, and LightMapTCoords, which are (-1, -1) where the points
-/// light; at the cells PageId, of a face that its points light 0, and Side, where it has sheets.
+/// `scene`, whose mesh is the solved one. At the points: Irradiance, SharedPointId, and
+/// LightMapTCoords, which are (-1, -1) where the points light; at the cells InputFaceId, SurfaceId,
+/// of a face that its points light ChartId -1 and PageId 0, and Side, where it has sheets; the
+/// field data of an atlas.
 LAMBERTATLAS_EXPORT void PolyDataFromRepresentedScene(const RepresentedScene& represented,
                                                       Scene scene, vtkPolyData* output);
 }  // namespace lambert

@@ -6,13 +6,14 @@
  * Input port 0: vtkPolyData, the mesh that was solved, as vtkFaceClustering leaves it. Input port
  * 1: vtkTable, its cluster tree. Input port 2: vtkPolyData, output port 0 of the method. Output
  * port 0: vtkPolyData, all surfaces, those of the light map first: point arrays `Irradiance` (3
- * float, W/m2) and `LightMapTCoords` (2 float; (-1, -1) where the points light), cell array
- * `PageId`. Output port 1: vtkMultiBlockDataSet, the pages, as vtkRadiosityLightMap has them.
- * Output port 2: vtkTable, a row a surface: `LightMapped` (0 or 1), `InputTriangles`,
- * `RefinedTriangles`, `Area` (m2), `Texels`, `MapError` (relative RMS of irradiance; both 0 outside
- * the light map), `Surface` and `Side`: a sheet that is lit on both sides has a row for each, a
- * surface that is cut one for each part. With sheets the faces of port 0 then have `Side`, too, and
- * are wound towards it.
+ * float, W/m2), `LightMapTCoords` (2 float; (-1, -1) where the points light) and `SharedPointId`,
+ * cell arrays `ChartId` (-1 where the points light), `PageId`, `InputFaceId` and `SurfaceId` (of
+ * the mesh that was solved). Output port 1: vtkMultiBlockDataSet, the pages, as
+ * vtkRadiosityLightMap has them. Output port 2: vtkTable, a row a surface: `LightMapped` (0 or 1),
+ * `InputTriangles`, `RefinedTriangles`, `Area` (m2), `Texels`, `MapError` (relative RMS of
+ * irradiance; both 0 outside the light map), `Surface` and `Side`: a sheet that is lit on both
+ * sides has a row for each, a surface that is cut one for each part. With sheets the faces of port
+ * 0 then have `Side`, too, and are wound towards it.
  */
 #ifndef vtkSurfaceRepresentation_h
 #define vtkSurfaceRepresentation_h

@@ -19,7 +19,8 @@ LAMBERTENGINE_EXPORT void WriteLightMap(const RadiosityAtlas& atlas, const Scene
                                         const ShownSides* shown, const std::string& fileName);
 
 /// The same of a scene whose surfaces are lit by their points or by the light map: NAME.vtp has
-/// Irradiance at its points, and LightMapTCoords of (-1, -1) where these light.
+/// Irradiance at its points, LightMapTCoords of (-1, -1) and ChartId -1 where these light, and
+/// InputFaceId.
 LAMBERTENGINE_EXPORT void WriteRepresentedScene(const RepresentedScene& represented,
                                                 const Scene& scene, const std::string& fileName);
 

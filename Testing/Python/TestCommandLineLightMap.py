@@ -110,6 +110,16 @@ for name, wanted in (("budget", ["--introduced", "500"]), ("wanted", ["--represe
     light = vtk_to_numpy(mesh.GetPointData().GetArray("Irradiance"))
     assert mesh.GetNumberOfCells() == told["triangles"]
     assert (uv == -1).any() and (uv >= 0).any() and np.isfinite(light).all() and light.max() > 0
+    # Faces tell their chart, points what they were one of.
+    chart, page, shared = (vtk_to_numpy(data.GetArray(name)) for data, name in (
+        (mesh.GetCellData(), "ChartId"), (mesh.GetCellData(), "PageId"), (mesh.GetPointData(), "SharedPointId")))
+    corners = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    by_points = (uv == -1).all(axis=1)[corners].all(axis=1)
+    assert np.array_equal(chart == -1, by_points) and chart.max() >= 0 and (page == 0).all()
+    points = vtk_to_numpy(mesh.GetPoints().GetData())
+    first_of = np.unique(shared, return_index=True, return_inverse=True)
+    assert np.array_equal(points, points[first_of[1]][first_of[2]])
+    assert mesh.GetFieldData().GetArray("Atlas.PageSize").GetValue(0) == SIZE
 lit_by_points = [s for s in shares["budget"]["surfaces"] if s["chosen"] == "points"]
 assert sum(max(0, s["refined_triangles"] - s["input_triangles"]) for s in lit_by_points) <= 500
 for surface in shares["budget"]["surfaces"]:

@@ -95,6 +95,20 @@ light = mean_on(corners[near], texels_of(image)[row, column])
 expected = light[1].mean() / light[0].mean()
 assert abs(shown[1] / shown[0] / expected - 1) < 0.1, (shown, expected)  # Codes of some 40: a step is 3 %.
 
+# Mixed with surfaces that their points light: still both sides, each with its way back to the one input face.
+solve(*common, "-o", solved, "--represent", PARTITION + ":lightmap", "--introduced", "1000000")
+mixed = mesh_of(mapped)
+corners_of_mixed, on_wall_of_mixed = faces_of(mixed)
+chart, face, side = (vtk_to_numpy(mixed.GetCellData().GetArray(name)) for name in ("ChartId", "InputFaceId", "Side"))
+assert np.array_equal(chart >= 0, on_wall_of_mixed) and set(side[on_wall_of_mixed]) == {0, 1}
+assert (np.unique(face[on_wall_of_mixed], return_counts=True)[1] == 2).all()
+reader, clustering = lambert.vtkRadiositySceneReader(), lambert.vtkFaceClustering()
+reader.SetFileName(ROOMS)
+clustering.SetInputConnection(reader.GetOutputPort())
+clustering.Update()
+lowest, highest = (reach(faces_of(clustering.GetOutput(0))[0], axis=1)[face] for reach in (np.min, np.max))
+assert ((corners_of_mixed.min(axis=1) > lowest - 1e-4) & (corners_of_mixed.max(axis=1) < highest + 1e-4)).all()
+
 # In glTF: both sides are in the page's mesh, and nothing of the wall beside it.
 solve(*common, "-o", glb)
 model = GltfModel(glb)

@@ -120,14 +120,17 @@ std::vector<int64_t> TrianglesOnBrighterSides(const TriangleMesh& mesh,
   return triangles;
 }
 
-/// Those triangles as a solution; and the surface of each, as `rows` number them.
+/// Those triangles as a solution, on faces of the mesh that the subset was taken of; and the
+/// surface of each, as `rows` number them.
 RadiositySolution OnBrighterSides(const SurfaceSubset& subset, const std::vector<size_t>& rows,
                                   std::vector<size_t>* rowOfTriangle) {
   const std::vector<int64_t> triangles = TrianglesOnBrighterSides(subset.mesh, subset.solution);
   for (const int64_t t : triangles) {
     rowOfTriangle->push_back(rows[SurfaceOf(subset.mesh, subset.solution, size_t(t))]);
   }
-  return TakeTriangles(subset.solution, triangles);
+  RadiositySolution taken = TakeTriangles(subset.solution, triangles);
+  for (int64_t& face : taken.inputFaceId) face = subset.inputFace[size_t(face)];
+  return taken;
 }
 
 template <class T>
@@ -327,6 +330,8 @@ RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& 
     cost.surface = shown->inputSurface[s];
     cost.side = shown->side[size_t(root.firstFace)];
   }
+  for (int64_t& face : scene.mapped.inputFace) face = shown->inputFace[size_t(face)];
+  for (int64_t& face : scene.points.inputFaceId) face = shown->inputFace[size_t(face)];
   return scene;
 }
 
@@ -334,9 +339,12 @@ RepresentedMesh JoinRepresentations(const RepresentedScene& scene) {
   // What the light map takes.
   RepresentedMesh joined;
   joined.mesh = scene.mapped.mesh;
-  joined.lightMapCoords = SplitAtCharts(scene.atlas, &joined.mesh);
+  const int64_t mappedPoints = joined.mesh.PointCount();
+  joined.lightMapCoords = SplitAtCharts(scene.atlas, &joined.mesh, &joined.sharedPoint);
+  joined.chart = ChartOfFace(scene.atlas.set);
+  joined.inputFace = scene.mapped.inputFace;
   joined.irradiance.resize(joined.lightMapCoords.size());
-  for (const int32_t chart : ChartOfFace(scene.atlas.set)) {
+  for (const int32_t chart : joined.chart) {
     const int32_t page = scene.atlas.pageOfChart[size_t(chart)];
     for (const int32_t point : joined.mesh.triangles[joined.page.size()]) {
       const size_t p = size_t(point);
@@ -348,7 +356,12 @@ RepresentedMesh JoinRepresentations(const RepresentedScene& scene) {
   // What its points light.
   AppendMesh(scene.points.mesh, &joined.mesh);
   joined.lightMapCoords.resize(joined.mesh.positions.size(), Vec2f(-1, -1));
+  for (int64_t p = 0; p < scene.points.mesh.PointCount(); ++p) {
+    joined.sharedPoint.push_back(mappedPoints + p);
+  }
+  joined.chart.resize(joined.mesh.triangles.size(), -1);
   joined.page.resize(joined.mesh.triangles.size(), 0);
+  Append(scene.points.inputFaceId, &joined.inputFace);
   Append(scene.points.irradiance, &joined.irradiance);
   if (!scene.hasSheets) return joined;
 

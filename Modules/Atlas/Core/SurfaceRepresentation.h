@@ -61,10 +61,11 @@ struct RepresentedScene {
   /// parts.
   std::vector<SurfaceCost> surfaces;
   bool hasSheets = false;  ///< then faces are wound towards the side that they show
-  SurfaceSubset mapped;    ///< in the light map
-  RadiosityAtlas atlas;    ///< of mapped.mesh
+  /// In the light map; its inputFace are of the solved mesh, though a sheet has two.
+  SurfaceSubset mapped;
+  RadiosityAtlas atlas;  ///< of mapped.mesh
   LightMap map;
-  RadiositySolution points;         ///< the sides that show of the others
+  RadiositySolution points;  ///< the sides that show of the others, on faces of the solved mesh
   std::vector<size_t> rowOfPoints;  ///< by triangle of `points`: in `surfaces`
 };
 
@@ -84,7 +85,10 @@ struct RepresentedMesh {
   TriangleMesh mesh;
   std::vector<Vec2f> lightMapCoords;  ///< by point; (-1, -1): lit by its points
   std::vector<Spectrum> irradiance;   ///< by point, W/m2
+  std::vector<int64_t> sharedPoint;   ///< by point: those that charts made of one have its number
+  std::vector<int32_t> chart;         ///< by face, of the light map; -1 where points light it
   std::vector<int32_t> page;          ///< by face, of the light map; 0 where points light it
+  std::vector<int64_t> inputFace;     ///< by face: of the solved mesh, in which it lies
   std::vector<uint8_t> side;          ///< by face: the side that it shows; empty without sheets
 };
 RepresentedMesh JoinRepresentations(const RepresentedScene& scene);

@@ -45,6 +45,32 @@ light = vtk_to_numpy(mesh.GetPointData().GetArray("Irradiance"))
 assert pages.GetNumberOfBlocks() == 1 and pages.GetBlock(0).GetDimensions() == (128, 128, 1)
 assert mesh.GetNumberOfCells() <= surfaces.size and (uv >= 0).any() and np.isfinite(light).all()
 
+# The way back: every face lies in the input's, on its surface; charts are of what the map takes.
+def corners_of(data):
+    return vtk_to_numpy(data.GetPoints().GetData())[vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)].astype(float)
+
+
+def way_back():
+    """Whether faces are in the light map, and their input faces."""
+    shown, cells = chosen.GetOutput(0), chosen.GetOutput(0).GetCellData()
+    chart, face, surface = (vtk_to_numpy(cells.GetArray(name)) for name in ("ChartId", "InputFaceId", "SurfaceId"))
+    a, b, c = corners_of(clustering.GetOutput(0))[face].transpose(1, 0, 2)
+    normal = np.cross(b - a, c - a)
+    middle, scale = corners_of(shown).mean(axis=1) - a, (normal ** 2).sum(axis=1)
+    at_b = (np.cross(middle, c - a) * normal).sum(axis=1) / scale
+    at_c = (np.cross(b - a, middle) * normal).sum(axis=1) / scale
+    assert min(at_b.min(), at_c.min(), (1 - at_b - at_c).min()) > -1e-4
+    assert np.abs((middle * normal).sum(axis=1) / scale ** 0.75).max() < 1e-4
+    assert np.array_equal(surface, surfaces[face])
+    at = vtk_to_numpy(shown.GetPointData().GetArray("LightMapTCoords"))[:, 0]
+    assert np.array_equal(chart >= 0, at[vtk_to_numpy(shown.GetPolys().GetConnectivityArray()).reshape(-1, 3)].max(axis=1) >= 0)
+    return chart >= 0, face
+
+
+is_mapped, face = way_back()
+assert np.array_equal(np.unique(surfaces[face[is_mapped]]), np.flatnonzero(refined_further))
+assert len(np.unique(face[is_mapped])) == is_mapped.sum()
+
 # Some triangles more: the surfaces with the fewest are lit by their points.
 introduced = table["RefinedTriangles"] - table["InputTriangles"]
 chosen.SetIntroducedTriangles(int(np.sort(introduced)[:3].sum()))
@@ -84,3 +110,4 @@ table = costs()
 assert np.array_equal(np.unique(table["Surface"]), np.arange(surfaces.max() + 1))
 assert np.array_equal(np.bincount(table["Surface"], table["InputTriangles"]), np.bincount(surfaces))
 assert (np.bincount(table["Surface"])[is_white] == 1).all() and (table["LightMapped"] == 1).any()
+way_back()
