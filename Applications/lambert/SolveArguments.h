@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,7 +40,7 @@ struct SolveArguments {
   LitModelOptions model;  ///< of glTF and HTML, without its tone
   std::optional<int64_t> introducedTriangles;
   bool splitSurfaces = false;
-  std::map<std::string, Representation> representations;
+  WantedRepresentations representations;
   bool probeGather = false, bothSides = false;
   ToneMappingOptions tone;
   bool dodgingAndBurning = false;

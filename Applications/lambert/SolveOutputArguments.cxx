@@ -1,6 +1,7 @@
 // What comes out of `solve` beside the solution.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -81,6 +82,35 @@ void AddTexelDensity(CLI::App* command, CLI::Option* lightMap, AtlasOptions* atl
       ->needs(lightMap);
 }
 
+/// Adds what `text` wants of surfaces: MATERIAL, part=NAME or surface=NUMBER, a colon and the kind.
+void AddWanted(const std::string& text, WantedRepresentations* wanted) {
+  const auto require = [](bool isRight) {
+    if (isRight) return;
+    throw CLI::ValidationError(
+        "--represent", "needs MATERIAL, part=NAME or surface=NUMBER, then :points or :lightmap");
+  };
+  const size_t colon = std::min(text.rfind(':'), text.size());
+  const std::string whole = text.substr(0, colon), kind = text.substr(colon);
+  require(!whole.empty() && (kind == ":points" || kind == ":lightmap"));
+  const Representation representation =
+      kind == ":points" ? Representation::Points : Representation::LightMap;
+
+  // A name that begins otherwise is that of a material.
+  const size_t equals = whole.find('=');
+  const std::string sort = equals == std::string::npos ? "" : whole.substr(0, equals);
+  const std::string name = whole.substr(equals + 1);
+  if (sort == "surface") {
+    int32_t surface = -1;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), surface);
+    require(error == std::errc() && end == name.data() + name.size() && surface >= 0);
+    wanted->bySurface[surface] = representation;
+  } else if (sort == "part") {
+    wanted->byPart[name] = representation;
+  } else {
+    wanted->byMaterial[sort == "material" ? name : whole] = representation;
+  }
+}
+
 /// Which surfaces a light map takes.
 void AddRepresentationOptions(CLI::App* command, CLI::Option* lightMap, SolveArguments* arguments) {
   CLI::Option* introduced = command->add_option_function<int64_t>(
@@ -97,18 +127,10 @@ void AddRepresentationOptions(CLI::App* command, CLI::Option* lightMap, SolveArg
       ->add_option_function<std::vector<std::string>>(
           "--represent",
           [=](const std::vector<std::string>& wanted) {
-            for (const std::string& text : wanted) {
-              const size_t colon = text.rfind(':');
-              const std::string kind = colon == std::string::npos ? "" : text.substr(colon + 1);
-              if (kind != "points" && kind != "lightmap") {
-                throw CLI::ValidationError("--represent", "needs MATERIAL:points|lightmap");
-              }
-              arguments->representations[text.substr(0, colon)] =
-                  kind == "points" ? Representation::Points : Representation::LightMap;
-            }
+            for (const std::string& text : wanted) AddWanted(text, &arguments->representations);
           },
-          "Light map beside .vtp, .vtpc, .ply: MATERIAL:points|lightmap, whatever refinement did "
-          "to it")
+          "Light map beside .vtp, .vtpc, .ply: MATERIAL:points|lightmap, part=NAME:..., "
+          "surface=NUMBER:... (of the report), whatever refinement did to it")
       ->allow_extra_args(false)
       ->needs(lightMap);
 }

@@ -1,6 +1,7 @@
 #include "vtkSurfaceRepresentation.h"
 
 #include "Atlas/Core/SurfaceRepresentation.h"
+#include "Atlas/Core/WantedRepresentations.h"
 #include "Clustering/vtkClusterTreeAdapter.h"
 #include "vtkAtlasAdapter.h"
 #include "vtkCoreShell.h"
@@ -20,8 +21,36 @@
 struct vtkSurfaceRepresentation::Settings {
   lambert::RepresentationOptions Choice;
   lambert::AtlasOptions Atlas;
-  std::map<std::string, lambert::Representation> ByMaterial;
+  lambert::WantedRepresentations Wanted;
 };
+
+namespace {
+constexpr const char* kChoice = "A representation is AUTOMATIC, POINTS or LIGHT_MAP";
+
+template <class Name>
+int Wanted(const std::map<Name, lambert::Representation>& wanted, const Name& name) {
+  const auto found = wanted.find(name);
+  return found != wanted.end() ? static_cast<int>(found->second)
+                               : vtkSurfaceRepresentation::AUTOMATIC;
+}
+
+/// Whether that is new.
+template <class Name>
+bool Want(const Name& name, int kind, std::map<Name, lambert::Representation>* wanted) {
+  if (Wanted(*wanted, name) == kind) return false;
+  (*wanted)[name] = static_cast<lambert::Representation>(kind);
+  return true;
+}
+
+template <class Name>
+void PrintWanted(ostream& os, vtkIndent indent, const char* sort,
+                 const std::map<Name, lambert::Representation>& wanted) {
+  for (const auto& [name, kind] : wanted) {
+    os << indent << "Representation of " << sort << " " << name << ": " << static_cast<int>(kind)
+       << "\n";
+  }
+}
+}  // namespace
 
 vtkStandardNewMacro(vtkSurfaceRepresentation);
 
@@ -59,19 +88,30 @@ lambertChoiceMacro(vtkSurfaceRepresentation, TexelDensity, lambert::TexelDensity
                    ILLUMINATION, "The density of texels is UNIFORM or ILLUMINATION");
 
 void vtkSurfaceRepresentation::SetRepresentation(const std::string& material, int kind) {
-  if (kind < AUTOMATIC || kind > LIGHT_MAP) {
-    vtkErrorMacro(<< "A representation is AUTOMATIC, POINTS or LIGHT_MAP, not " << kind << ".");
-    return;
-  }
-  if (this->GetRepresentation(material) != kind) {
-    this->Options->ByMaterial[material] = static_cast<lambert::Representation>(kind);
-    this->Modified();
-  }
+  lambertRequireChoiceMacro(kind, LIGHT_MAP, kChoice);
+  if (Want(material, kind, &this->Options->Wanted.byMaterial)) this->Modified();
 }
 
 int vtkSurfaceRepresentation::GetRepresentation(const std::string& material) {
-  const auto found = this->Options->ByMaterial.find(material);
-  return found != this->Options->ByMaterial.end() ? static_cast<int>(found->second) : AUTOMATIC;
+  return Wanted(this->Options->Wanted.byMaterial, material);
+}
+
+void vtkSurfaceRepresentation::SetPartRepresentation(const std::string& part, int kind) {
+  lambertRequireChoiceMacro(kind, LIGHT_MAP, kChoice);
+  if (Want(part, kind, &this->Options->Wanted.byPart)) this->Modified();
+}
+
+int vtkSurfaceRepresentation::GetPartRepresentation(const std::string& part) {
+  return Wanted(this->Options->Wanted.byPart, part);
+}
+
+void vtkSurfaceRepresentation::SetSurfaceRepresentation(int surface, int kind) {
+  lambertRequireChoiceMacro(kind, LIGHT_MAP, kChoice);
+  if (Want(surface, kind, &this->Options->Wanted.bySurface)) this->Modified();
+}
+
+int vtkSurfaceRepresentation::GetSurfaceRepresentation(int surface) {
+  return Wanted(this->Options->Wanted.bySurface, surface);
 }
 
 //------------------------------------------------------------------------------
@@ -106,8 +146,7 @@ int vtkSurfaceRepresentation::RequestData(vtkInformation*, vtkInformationVector*
     lambert::Scene scene = lambert::SceneFromPolyData(vtkPolyData::GetData(inputs[0]));
     const lambert::ClusterTree tree = lambert::ClusterTreeFromTable(vtkTable::GetData(inputs[1]));
     lambert::RepresentationOptions choice = this->Options->Choice;
-    choice.wanted = lambert::RepresentationsByMaterial(scene.mesh, tree, scene.materials,
-                                                       this->Options->ByMaterial,
+    choice.wanted = lambert::RepresentationsOfSurfaces(scene, tree, this->Options->Wanted,
                                                        lambert::Representation::Automatic);
     const lambert::RepresentedScene represented = lambert::RepresentSurfaces(
         scene.mesh, tree, lambert::SolutionFromPolyData(vtkPolyData::GetData(inputs[2])), choice,
@@ -130,7 +169,7 @@ void vtkSurfaceRepresentation::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "MipLevels: " << this->GetMipLevels() << "\n"
      << indent << "TexelDensity: " << this->GetTexelDensity() << "\n"
      << indent << "Stretch: " << this->GetStretch() << "\n";
-  for (const auto& [material, kind] : this->Options->ByMaterial) {
-    os << indent << "Representation of " << material << ": " << static_cast<int>(kind) << "\n";
-  }
+  PrintWanted(os, indent, "material", this->Options->Wanted.byMaterial);
+  PrintWanted(os, indent, "part", this->Options->Wanted.byPart);
+  PrintWanted(os, indent, "surface", this->Options->Wanted.bySurface);
 }

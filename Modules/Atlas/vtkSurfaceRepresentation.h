@@ -42,10 +42,15 @@ class LAMBERTATLAS_EXPORT vtkSurfaceRepresentation : public vtkPolyDataAlgorithm
   vtkBooleanMacro(SplitSurfaces, bool);
   ///@}
   enum Kind { AUTOMATIC = 0, POINTS = 1, LIGHT_MAP = 2 };
-  ///@{ What is wanted of the surfaces of a material, by its name; default AUTOMATIC, as the
-  /// triangles tell.
+  ///@{ What is wanted of the surfaces of a material or a part, by its name, and of one surface, by
+  /// its number (`SurfaceId`, column `Surface` of port 2); default AUTOMATIC, as the triangles
+  /// tell. The narrowest counts: surface before part before material.
   void SetRepresentation(const std::string& material, int kind);
   int GetRepresentation(const std::string& material);
+  void SetPartRepresentation(const std::string& part, int kind);
+  int GetPartRepresentation(const std::string& part);
+  void SetSurfaceRepresentation(int surface, int kind);
+  int GetSurfaceRepresentation(int surface);
   ///@}
 
   enum Density { UNIFORM = 0, ILLUMINATION = 1 };

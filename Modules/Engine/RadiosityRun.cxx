@@ -100,14 +100,7 @@ void RadiosityRun::Load(const ProgressCallback& progress) {
   this->scene_ = LoadScene(this->options_.files, this->options_.reader, this->options_.cleaning,
                            this->options_.settings, &this->reading_, &this->cleaning_, progress);
 
-  for (const auto& [name, representation] : this->options_.representations) {
-    const auto& materials = this->scene_.materials;
-    if (std::none_of(materials.begin(), materials.end(),
-                     [&, wanted = name](const Material& m) { return m.name == wanted; })) {
-      throw lambert::Error("The scene has no material " + name +
-                           ", whose light is to be shown in a way of its own.");
-    }
-  }
+  RequireMaterialsAndParts(this->scene_, this->options_.representations);
   this->AddStage("load", timer.Seconds());
 }
 
@@ -131,6 +124,8 @@ void RadiosityRun::Cluster(const ProgressCallback& progress) {
   Timer timer;
   this->tree_ = ClusterFaces(&this->scene_.mesh, this->scene_.parts, this->options_.clustering,
                              &this->clustering_, progress);
+  RequireSurfaces(static_cast<int64_t>(this->tree_.surfaceRoots.size()),
+                  this->options_.representations);
   this->AddStage("cluster", timer.Seconds());
 }
 
@@ -205,18 +200,17 @@ void RadiosityRun::LayFlat(const ProgressCallback& progress) {
 }
 
 void RadiosityRun::Represent(const ProgressCallback& progress) {
-  // What is wanted of surfaces, by their material.
+  // What is wanted of surfaces.
   RepresentationOptions options;
   options.introducedTriangles = this->options_.introducedTriangles.value_or(0);
   options.splitSurfaces = this->options_.splitSurfaces;
-  const TriangleMesh& mesh = this->scene_.mesh;
-  options.wanted = RepresentationsByMaterial(
-      mesh, this->tree_, this->scene_.materials, this->options_.representations,
+  options.wanted = RepresentationsOfSurfaces(
+      this->scene_, this->tree_, this->options_.representations,
       this->options_.introducedTriangles ? Representation::Automatic : Representation::LightMap);
 
   // Both kinds.
   Timer timer;
-  this->represented_ = RepresentSurfaces(mesh, this->tree_, this->solution_, options,
+  this->represented_ = RepresentSurfaces(this->scene_.mesh, this->tree_, this->solution_, options,
                                          *this->options_.atlas, progress);
   this->atlas_ = this->represented_->atlas;
   this->lightMap_ = this->represented_->map;
@@ -234,7 +228,7 @@ const RadiositySolution& RadiosityRun::SolutionAsShown() {
 
 void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
   if (this->options_.atlas &&
-      (this->options_.introducedTriangles || !this->options_.representations.empty())) {
+      (this->options_.introducedTriangles || !this->options_.representations.IsEmpty())) {
     this->Represent(progress);
     return;
   }

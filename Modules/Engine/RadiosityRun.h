@@ -6,6 +6,7 @@
 #include "Atlas/Core/LitMeshSimplification.h"
 #include "Atlas/Core/ShownSides.h"
 #include "Atlas/Core/SurfaceRepresentation.h"
+#include "Atlas/Core/WantedRepresentations.h"
 #include "Clustering/Core/FaceClustering.h"
 #include "Common/Core/Progress.h"
 #include "LitModel.h"
@@ -17,7 +18,6 @@
 #include "SolveMethod.h"
 #include "lambertEngineModule.h"
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,7 +38,7 @@ struct RadiosityRunOptions {
   /// are in the light map but those of `representations`.
   std::optional<int64_t> introducedTriangles;
   bool splitSurfaces = false;  ///< surfaces of both kinds, where `introducedTriangles` chooses
-  std::map<std::string, Representation> representations;  ///< by material, as asked for
+  WantedRepresentations representations;  ///< as asked for
   double timeLimit = 0;        ///< seconds since the process began, writing included; 0: none
   double outputSeconds = 0.2;  ///< kept free for what is not proportional to the mesh (a picture)
   double outputSecondsPerPart = 0;  ///< the same for each part (files of a collection)
@@ -57,7 +57,7 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   /// Throws Error, before any work, for a scene without light.
   void RequireLight() const;
   /// Builds the face-cluster tree, for the method Hierarchical and for light maps alone. Throws
-  /// Cancelled.
+  /// Error where a surface is to be represented that is none, Cancelled.
   void Cluster(const ProgressCallback& progress = {});
   /// Solves until the request is met, until another iteration and the output would not fit into the
   /// time limit, or until `interrupted` says so; all end at the border of an iteration. `observer`

@@ -125,6 +125,23 @@ assert sum(max(0, s["refined_triangles"] - s["input_triangles"]) for s in lit_by
 for surface in shares["budget"]["surfaces"]:
     assert (surface["texels"] is not None) == (surface["chosen"] == "lightmap")
 assert all(s["chosen"] == ("points" if s["material"] == "White" else "lightmap") for s in shares["wanted"]["surfaces"])
-for wrong, code in ((["--represent", "White:paint"], 2), (["--represent", "NoSuch:points"], 1), (["--introduced", "-1"], 2)):
+
+# Any surface by the name of its part or by its number in that report, whatever is wanted of its material.
+of_report = {s["surface"]: s for s in shares["wanted"]["surfaces"]}
+white = next(n for n, s in of_report.items() if s["material"] == "White")
+other = next(n for n, s in of_report.items() if s["material"] != "White")
+named = run("solve", *common, "--represent", "White:points", "--represent", f"surface={white}:lightmap", "--represent",
+            f"surface={other}:points", "--report", report)
+assert named.returncode == 0, named.stderr
+for surface in json.load(open(report))["representation"]["surfaces"]:
+    turned = surface["surface"] in (white, other)
+    assert (surface["chosen"] != of_report[surface["surface"]]["chosen"]) == turned, surface
+part = of_report[other]["part"]
+named = run("solve", *common, "--represent", f"part={part}:points", "--report", report)
+assert named.returncode == 0, named.stderr
+assert all((s["chosen"] == "points") == (s["part"] == part) for s in json.load(open(report))["representation"]["surfaces"])
+for wrong, code in ((["--represent", "White:paint"], 2), (["--represent", "NoSuch:points"], 1), (["--introduced", "-1"], 2),
+                    (["--represent", "part=NoSuch:points"], 1), (["--represent", "surface=1e3:points"], 2),
+                    (["--represent", "surface=123456:points"], 1), (["--represent", ":points"], 2)):
     failed = run("solve", *common, *wrong)
     assert failed.returncode == code and failed.stderr.strip(), (wrong, failed.returncode, failed.stderr)

@@ -259,18 +259,6 @@ RepresentedScene RepresentParts(const TriangleMesh& mesh, const ClusterTree& tre
 
 }  // namespace
 
-std::vector<Representation> RepresentationsByMaterial(
-    const TriangleMesh& mesh, const ClusterTree& tree, const std::vector<Material>& materials,
-    const std::map<std::string, Representation>& wanted, Representation otherwise) {
-  std::vector<Representation> bySurface;
-  for (const int32_t root : tree.surfaceRoots) {
-    const int32_t face = tree.nodes[size_t(root)].firstFace;
-    const auto found = wanted.find(materials[size_t(mesh.materialId[size_t(face)])].name);
-    bySurface.push_back(found != wanted.end() ? found->second : otherwise);
-  }
-  return bySurface;
-}
-
 std::vector<SurfaceCost> ChooseRepresentations(const TriangleMesh& mesh,
                                                const RadiositySolution& solution,
                                                const RepresentationOptions& options) {

@@ -3,14 +3,11 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <string>
 #include <vector>
 
 #include "Atlas/Core/LightMap.h"
 #include "Atlas/Core/ShownSides.h"
 #include "Atlas/Core/SurfaceSubset.h"
-#include "Scene/Core/Scene.h"
 
 namespace lambert {
 
@@ -42,11 +39,6 @@ struct SurfaceCost {
     return refinedTriangles > inputTriangles ? refinedTriangles - inputTriangles : 0;
   }
 };
-
-/// By surface of `tree`, what is wanted by the name of its material, else `otherwise`.
-std::vector<Representation> RepresentationsByMaterial(
-    const TriangleMesh& mesh, const ClusterTree& tree, const std::vector<Material>& materials,
-    const std::map<std::string, Representation>& wanted, Representation otherwise);
 
 /// Takes the surfaces by the triangles that refinement introduced, the most first, into the light
 /// map, until those of the others are within the options (thesis 5.3). `mesh` is the solved mesh,

@@ -87,6 +87,20 @@ materials = vtk_to_numpy(clustering.GetOutput(0).GetCellData().GetArray("Materia
 is_white = np.array([names.GetValue(materials[np.argmax(surfaces == s)]) == "White" for s in range(surfaces.max() + 1)])
 assert is_white.any() and np.array_equal(costs()["LightMapped"] == 1, is_white)
 
+# Any surface, by its number or its part: the narrowest counts.
+odd = int(np.flatnonzero(is_white)[0])
+chosen.SetSurfaceRepresentation(odd, chosen.POINTS)
+assert chosen.GetSurfaceRepresentation(odd) == chosen.POINTS and chosen.GetSurfaceRepresentation(odd + 1) == chosen.AUTOMATIC
+assert np.array_equal(costs()["LightMapped"] == 1, is_white & (np.arange(is_white.size) != odd))
+chosen.SetSurfaceRepresentation(odd, chosen.AUTOMATIC)
+part = clustering.GetOutput(0).GetFieldData().GetAbstractArray("Part.Name").GetValue(0)
+chosen.SetPartRepresentation(part, chosen.POINTS)
+assert chosen.GetPartRepresentation(part) == chosen.POINTS
+parts = vtk_to_numpy(clustering.GetOutput(0).GetCellData().GetArray("PartId"))
+of_part = np.array([parts[np.argmax(surfaces == s)] == 0 for s in range(surfaces.max() + 1)])
+assert np.array_equal(costs()["LightMapped"] == 1, is_white & ~of_part)
+chosen.SetPartRepresentation(part, chosen.AUTOMATIC)
+
 # Progress; an abort leaves nothing and is no error; wrong options are told.
 errors, fractions = [], []
 chosen.AddObserver("ErrorEvent", lambda *_: errors.append(1))
@@ -101,6 +115,12 @@ assert len(errors) == 1 and chosen.GetRepresentation("White") == chosen.LIGHT_MA
 chosen.SetIntroducedTriangles(-1)
 chosen.Update()
 assert len(errors) >= 2 and chosen.GetOutput(0).GetNumberOfCells() == 0
+chosen.SetIntroducedTriangles(0)
+chosen.SetSurfaceRepresentation(int(surfaces.max()) + 1, chosen.POINTS)
+told = len(errors)
+chosen.Update()
+assert len(errors) > told
+chosen.SetSurfaceRepresentation(int(surfaces.max()) + 1, chosen.AUTOMATIC)
 print("surface representation: passed")
 
 # Cut into parts: a row each, none of a surface whose kind is decided, and no face is lost.
