@@ -133,7 +133,7 @@ void FillCosts(const std::vector<lambert::SurfaceCost>& surfaces, vtkTable* tabl
   add(vtkNew<vtkIdTypeArray>().Get(), "RefinedTriangles",
       [](const Cost& s) { return s.refinedTriangles; });
   add(vtkNew<vtkDoubleArray>().Get(), "Area", [](const Cost& s) { return s.area; });
-  add(vtkNew<vtkDoubleArray>().Get(), "Texels", [](const Cost& s) { return s.texels; });
+  add(vtkNew<vtkIdTypeArray>().Get(), "Texels", [](const Cost& s) { return s.texels; });
   add(vtkNew<vtkDoubleArray>().Get(), "MapError", [](const Cost& s) { return s.mapError; });
   add(vtkNew<vtkIdTypeArray>().Get(), "Surface", [](const Cost& s) { return s.surface; });
   add(vtkNew<vtkIdTypeArray>().Get(), "Side", [](const Cost& s) { return s.side; });

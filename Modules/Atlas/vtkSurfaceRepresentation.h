@@ -10,10 +10,11 @@
  * cell arrays `ChartId` (-1 where the points light), `PageId`, `InputFaceId` and `SurfaceId` (of
  * the mesh that was solved). Output port 1: vtkMultiBlockDataSet, the pages, as
  * vtkRadiosityLightMap has them. Output port 2: vtkTable, a row a surface: `LightMapped` (0 or 1),
- * `InputTriangles`, `RefinedTriangles`, `Area` (m2), `Texels`, `MapError` (relative RMS of
- * irradiance; both 0 outside the light map), `Surface` and `Side`: a sheet that is lit on both
- * sides has a row for each, a surface that is cut one for each part. With sheets the faces of port
- * 0 then have `Side`, too, and are wound towards it.
+ * `InputTriangles`, `RefinedTriangles`, `Area` (m2), `Texels` (in the light map, or were it
+ * there; -1 where there is none), `MapError` (relative RMS of irradiance; -1 outside the light
+ * map), `Surface` and `Side`: a sheet that is lit on both sides has a row for each, a surface that
+ * is cut one for each part. With sheets the faces of port 0 then have `Side`, too, and are wound
+ * towards it.
  */
 #ifndef vtkSurfaceRepresentation_h
 #define vtkSurfaceRepresentation_h

@@ -175,9 +175,10 @@ Json RepresentationJson(const RadiosityRun& run) {
                         {"chosen", isMapped ? "lightmap" : "points"},
                         {"input_triangles", cost.inputTriangles},
                         {"refined_triangles", cost.refinedTriangles},
+                        {"area_m2", cost.area},
                         {"error_of_input_points", cost.inputPointError},
-                        {"texels", isMapped ? Json(cost.texels) : Json()},
-                        {"error_of_light_map", isMapped ? Json(cost.mapError) : Json()}});
+                        {"texels", cost.texels < 0 ? Json() : Json(cost.texels)},
+                        {"error_of_light_map", cost.mapError < 0 ? Json() : Json(cost.mapError)}});
   }
   return {{"triangles", represented.mapped.mesh.FaceCount() + represented.points.mesh.FaceCount()},
           {"light_mapped", represented.mapped.tree.surfaceRoots.size()},

@@ -123,7 +123,8 @@ for name, wanted in (("budget", ["--introduced", "500"]), ("wanted", ["--represe
 lit_by_points = [s for s in shares["budget"]["surfaces"] if s["chosen"] == "points"]
 assert sum(max(0, s["refined_triangles"] - s["input_triangles"]) for s in lit_by_points) <= 500
 for surface in shares["budget"]["surfaces"]:
-    assert (surface["texels"] is not None) == (surface["chosen"] == "lightmap")
+    assert isinstance(surface["texels"], int) and surface["texels"] > 0 and surface["error_of_input_points"] >= 0
+    assert (surface["error_of_light_map"] is not None) == (surface["chosen"] == "lightmap")
 assert all(s["chosen"] == ("points" if s["material"] == "White" else "lightmap") for s in shares["wanted"]["surfaces"])
 
 # Any surface by the name of its part or by its number in that report, whatever is wanted of its material.

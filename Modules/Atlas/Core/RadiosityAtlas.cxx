@@ -99,7 +99,7 @@ class Layout {
   /// Throws Error where a chart is longer than a page, or all take too many pages.
   void RequireRoom(double density) const {
     const double page = double(options_.pageSize) * options_.pageSize;
-    if (density > this->MostDensity()) {
+    if (longest_ > 0 && density > this->MostDensity()) {
       throw Error("A chart of " + std::to_string(longest_) + " m is longer than a page of " +
                   std::to_string(options_.pageSize) +
                   " texels; take larger pages or larger texels.");

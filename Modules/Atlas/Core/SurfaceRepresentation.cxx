@@ -213,8 +213,12 @@ RepresentedScene RepresentAsTheyAre(const TriangleMesh& mesh, const ClusterTree&
   const std::vector<double> errors = MapErrors(scene), texels = TexelsOfSurfaces(scene);
   size_t next = 0;
   for (SurfaceCost& cost : scene.surfaces) {
-    if (cost.chosen != Representation::LightMap) continue;
-    cost.texels = texels[next];
+    if (cost.chosen != Representation::LightMap) {
+      const double size = scene.atlas.texelSize;
+      if (size > 0) cost.texels = std::llround(std::ceil(cost.area / (size * size)));
+      continue;
+    }
+    cost.texels = std::llround(std::ceil(texels[next]));
     cost.mapError = errors[next++];
   }
   return scene;

@@ -29,11 +29,12 @@ struct SurfaceCost {
   int64_t inputTriangles = 0;    ///< drawn with a light map
   int64_t refinedTriangles = 0;  ///< drawn with light at the points: of the brighter side
   double area = 0;               ///< m2
-  double texels = 0;             ///< that its area takes in the light map; 0: it is not in it
-  double mapError = 0;           ///< of lookups in the light map; 0: it is not in it
-  double inputPointError = 0;    ///< were the points of the input alone lit
-  int32_t surface = 0;           ///< of the solved mesh
-  uint8_t side = kFront;         ///< of its faces, which it shows
+  /// That its area takes in the light map, or would at the size of its texels; -1: it has none.
+  int64_t texels = -1;
+  double mapError = -1;        ///< of lookups in the light map; -1: it is not in it
+  double inputPointError = 0;  ///< were the points of the input alone lit
+  int32_t surface = 0;         ///< of the solved mesh
+  uint8_t side = kFront;       ///< of its faces, which it shows
 
   int64_t Introduced() const {
     return refinedTriangles > inputTriangles ? refinedTriangles - inputTriangles : 0;

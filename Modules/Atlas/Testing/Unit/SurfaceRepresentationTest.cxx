@@ -95,10 +95,14 @@ TEST(SurfaceRepresentation, ShowsTheLightOfTheSolutionEitherWay) {
   EXPECT_EQ(scene.mapped.mesh.FaceCount(), 32);
   EXPECT_EQ(scene.mapped.tree.surfaceRoots.size(), 1u);
   EXPECT_EQ(scene.atlas.pages, 1);
-  EXPECT_NEAR(upper.texels, 1 / (scene.atlas.texelSize * scene.atlas.texelSize), 1);
+  EXPECT_NEAR(double(upper.texels), 1 / (scene.atlas.texelSize * scene.atlas.texelSize), 1);
   EXPECT_GT(upper.inputPointError, 0.2);
   EXPECT_LT(upper.mapError, 0.02);  // Cells of the solution are seven texels wide.
-  EXPECT_EQ(scene.surfaces[1 - planes.Upper()].texels, 0);
+
+  // The lower one would take as many texels; what they would show nobody has drawn.
+  const SurfaceCost& lower = scene.surfaces[1 - planes.Upper()];
+  EXPECT_NEAR(double(lower.texels), double(upper.texels), 1);
+  EXPECT_EQ(lower.mapError, -1);
 }
 
 TEST(SurfaceRepresentation, NothingIsMappedWhereNothingWasRefined) {
@@ -108,6 +112,14 @@ TEST(SurfaceRepresentation, NothingIsMappedWhereNothingWasRefined) {
   EXPECT_EQ(scene.points.mesh.FaceCount(), 64);
   EXPECT_EQ(scene.mapped.mesh.FaceCount(), 0);
   EXPECT_EQ(scene.atlas.pages, 0);
+  EXPECT_EQ(scene.surfaces[0].texels, -1);  // Of no size
+
+  AtlasOptions sized = Page();
+  sized.texelSize = 0.01;
+  EXPECT_NEAR(double(RepresentSurfaces(planes.mesh, planes.tree, planes.solution, {}, sized)
+                         .surfaces[0]
+                         .texels),
+              1e4, 1);
 }
 
 TEST(SurfaceRepresentation, RefusesOptionsThatDoNotFit) {
