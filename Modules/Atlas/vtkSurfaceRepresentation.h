@@ -36,8 +36,8 @@ class LAMBERTATLAS_EXPORT vtkSurfaceRepresentation : public vtkPolyDataAlgorithm
   void SetIntroducedTriangles(vtkIdType triangles);
   vtkIdType GetIntroducedTriangles();
   ///@}
-  ///@{ Whether AUTOMATIC surfaces are cut into clusters, each of its own kind, with no step between
-  /// them; default off.
+  ///@{ Whether AUTOMATIC surfaces are cut into clusters, each of its own kind, with hardly a
+  /// step between them where they are large and flat; default off.
   void SetSplitSurfaces(bool split);
   bool GetSplitSurfaces();
   vtkBooleanMacro(SplitSurfaces, bool);

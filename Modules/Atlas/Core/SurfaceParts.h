@@ -1,5 +1,5 @@
 // Surfaces cut into clusters that show their light in one way each (thesis 5.3 leaves this open):
-// what refinement left as it was at points, the rest in a light map, and no step between the two.
+// what refinement left as it was at points, the rest in a light map, and hardly a step between.
 #pragma once
 
 #include <cstdint>

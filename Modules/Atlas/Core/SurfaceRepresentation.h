@@ -17,7 +17,8 @@ struct RepresentationOptions {
   /// Triangles that refinement may add to all the surfaces that their points light, [0, inf).
   int64_t introducedTriangles = 0;
   std::vector<Representation> wanted;  ///< by surface; empty: all Automatic
-  /// Automatic surfaces are cut into clusters, each of its own kind, with no step between them.
+  /// Automatic surfaces are cut into clusters, each of its own kind, with hardly a step between
+  /// them where they are large and flat.
   bool splitSurfaces = false;
 };
 
