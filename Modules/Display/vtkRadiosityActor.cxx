@@ -270,9 +270,9 @@ void vtkRadiosityActor::UpdateShader() {
   lambert::ReplaceDiffuseLight(parts, this->GetShaderProperty());
   this->LightMapper->RemoveAllVertexAttributeMappings();
   for (const lambert::RadiosityAttribute& attribute : lambert::AttributesOf(parts)) {
-    this->LightMapper->MapDataArrayToVertexAttribute(
-        (std::string(attribute.name) + "MC").c_str(), attribute.array,
-        vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
+    this->LightMapper->MapDataArrayToVertexAttribute((std::string(attribute.name) + "MC").c_str(),
+                                                     attribute.array,
+                                                     vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
   }
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
@@ -39,9 +38,6 @@ constexpr double kLeastRaysOfLeaf = 0.5, kMostRaysOfLeaf = 64;
 constexpr int kDirectRaysAtLeaves = 12;
 /// A facet of a leaf receives up to this many times the mean of its samples.
 constexpr float kMostOfMean = 4;
-/// Bounces between leaves go on until one brings less than this part of all light, or so many.
-constexpr double kLeastGained = 1e-4;
-constexpr int kMostBouncesOfLeaves = 500;
 /// Light of which links knew less than this part comes from directions that they do not know.
 constexpr float kLeastKnown = 1e-3f;
 
@@ -50,9 +46,6 @@ constexpr float kLeastKnown = 1e-3f;
 /// Band by band.
 static Spectrum Larger(const Spectrum& a, const Spectrum& b) {
   return {std::max(a.r, b.r), std::max(a.g, b.g), std::max(a.b, b.b)};
-}
-static Spectrum Smaller(const Spectrum& a, const Spectrum& b) {
-  return {std::min(a.r, b.r), std::min(a.g, b.g), std::min(a.b, b.b)};
 }
 
 FinalGather::FinalGather(const ElementHierarchy& hierarchy, const RayScene& rayScene,
@@ -197,7 +190,7 @@ void FinalGather::CastFromLeaf(size_t row, uint64_t seed, LeafRows* rows, int64_
 }
 
 // From the leaves that reflect, in proportion to their area.
-FinalGather::LeafRows FinalGather::CastFromLeaves(int rays, uint64_t seed, int64_t* cast) {
+LeafRows FinalGather::CastFromLeaves(int rays, uint64_t seed, int64_t* cast) {
   LeafRows rows;
   double area = 0;
   for (int32_t index = 0; index < hierarchy_.Size(); ++index) {
@@ -205,6 +198,7 @@ FinalGather::LeafRows FinalGather::CastFromLeaves(int rays, uint64_t seed, int64
     const bool isSurface = !e.IsVolume() && e.kind != ElementKind::Light;
     if (!e.IsLeaf() || !isSurface || e.reflectance.IsBlack() || !(e.area > 0)) continue;
     rows.leaves.push_back(index);
+    rows.areas.push_back(e.area);
     area += double(e.area);
   }
   const double meanArea = area / double(rows.leaves.size());
@@ -228,50 +222,10 @@ FinalGather::LeafRows FinalGather::CastFromLeaves(int rays, uint64_t seed, int64
   return rows;
 }
 
-// Bounce by bounce from the dark on, so that what no light reaches stays dark however little it
-// absorbs; by place of received_. How facets turn within a leaf is left out: in the mean it neither
-// adds nor takes light, but over the few rays of closed things it may add more than is absorbed.
-std::vector<Spectrum> FinalGather::Balance(const LeafRows& rows) const {
-  const Spectrum most = this->Furnace();
-  std::vector<Spectrum> now = received_;
-  for (const int32_t leaf : rows.leaves) {
-    std::fill_n(now.begin() + int64_t(leaf) * kPlacesOfLeaf, kPlacesOfLeaf, Spectrum());
-  }
-  std::vector<Spectrum> next = now;
-  std::vector<float> power(rows.leaves.size()), gained(rows.leaves.size());
-  for (int bounce = 0; bounce < kMostBouncesOfLeaves; ++bounce) {
-    ParallelForEach(int64_t(rows.leaves.size()), 64, [&](int64_t row) {
-      const int32_t leaf = rows.leaves[size_t(row)];
-      const int64_t begin = rows.begin[size_t(row)];
-      const int64_t count = (rows.begin[size_t(row) + 1] - begin) / kSamplesPerElement;
-      Spectrum* const places = &next[size_t(leaf) * kPlacesOfLeaf];
-      places[kMean] = Spectrum();
-      for (int64_t k = 0; k < kSamplesPerElement; ++k) {
-        Spectrum sum;
-        for (int64_t r = begin + k * count; r < begin + (k + 1) * count; ++r) {
-          const LeafRay& ray = rows.rays[size_t(r)];
-          if (ray.element < 0) continue;
-          sum += ray.part * now[size_t(ray.element) * kPlacesOfLeaf + size_t(ray.place)];
-        }
-        places[k] = Smaller(most, rows.fromSources[size_t(row)][size_t(k)] + sum / float(count));
-        places[kMean] += places[k] / float(kSamplesPerElement);
-      }
-      const float area = hierarchy_[leaf].area;
-      power[size_t(row)] = area * places[kMean].Mean();
-      gained[size_t(row)] =
-          power[size_t(row)] - area * now[size_t(leaf) * kPlacesOfLeaf + kMean].Mean();
-    });
-    now.swap(next);
-    const double all = std::accumulate(power.begin(), power.end(), 0.0);
-    if (std::accumulate(gained.begin(), gained.end(), 0.0) <= kLeastGained * all) break;
-  }
-  return now;
-}
-
 void FinalGather::GatherAtLeaves(int rays, double share, uint64_t seed, int64_t* cast) {
   const LeafRows rows = this->CastFromLeaves(rays, seed, cast);
   if (rows.leaves.empty()) return;
-  const std::vector<Spectrum> balanced = this->Balance(rows);
+  const std::vector<Spectrum> balanced = BalanceLeaves(rows, received_, this->Furnace());
   double area = 0, reflected = 0;
   for (const int32_t leaf : rows.leaves) {
     for (size_t k = 0; k < kPlacesOfLeaf; ++k) {

@@ -11,6 +11,7 @@
 #include "Common/Core/Random.h"
 #include "Radiosity/Core/DirectLight.h"
 #include "Radiosity/Core/ElementHierarchy.h"
+#include "Radiosity/Core/LeafBalance.h"
 #include "Radiosity/Core/LinkRefinement.h"
 #include "Visibility/Core/RayScene.h"
 
@@ -73,8 +74,6 @@ class FinalGather {
   void GatherAtLeaves(int rays, double share, uint64_t seed, int64_t* cast);
 
  private:
-  /// What is known of the light that a leaf receives: at its samples, and their mean.
-  static constexpr int kMean = kSamplesPerElement, kPlacesOfLeaf = kSamplesPerElement + 1;
   /// What a ray meets, emitters left out: radiosity from sources, and the part that a leaf sends of
   /// what one of its places receives, times how much more its facet there does.
   struct Seen {
@@ -91,22 +90,8 @@ class FinalGather {
                : seen.fromSources + seen.part * seen.turned * received_[size_t(seen.place)];
   }
   int32_t LeafAt(int64_t face, Side side, const Vec3f& position) const;
-  /// The rays of the leaves that gather, a row of them a sample.
-  struct LeafRay {
-    int32_t element = -1;  ///< the leaf that they see; -1: none
-    int32_t place = 0;     ///< of it
-    Spectrum part;         ///< that it sends of what its place receives
-  };
-  struct LeafRows {
-    std::vector<int32_t> leaves;
-    std::vector<int64_t> begin;  ///< of each leaf's rays, those of its samples in a row; one more
-    std::vector<LeafRay> rays;
-    /// From sources, directly and over one bounce, W/m2.
-    std::vector<std::array<Spectrum, kSamplesPerElement>> fromSources;
-  };
   LeafRows CastFromLeaves(int rays, uint64_t seed, int64_t* cast);
   void CastFromLeaf(size_t row, uint64_t seed, LeafRows* rows, int64_t* cast);
-  std::vector<Spectrum> Balance(const LeafRows& rows) const;
   float TurnedTo(int32_t leaf, const Vec3f& from, const Vec3f& to) const;
   Spectrum TurnedFromMean(int32_t leaf, const Vec3f& to) const;
   int TellingSample(int32_t leaf, const Vec3f& place, const Vec3f& normal, int64_t* rays) const;
