@@ -11,6 +11,7 @@
 #include "Common/Core/Timer.h"
 #include "Display/vtkRadiosityImageWriter.h"
 #include "Display/vtkRadiosityToneMapping.h"
+#include "Engine/ComparedPointsFile.h"
 #include "Engine/HtmlFile.h"
 #include "Engine/LightMapFile.h"
 #include "Engine/LitModelFile.h"
@@ -236,6 +237,9 @@ int Solve(const SolveArguments& arguments) {
     Stage("image", &display, &run, [&] { WriteImage(arguments, run); });
   }
   if (arguments.verifyPoints > 0 && !IsInterrupted()) Verify(arguments, progress, &display, &run);
+  if (!arguments.verifyOutput.empty() && run.Error()) {
+    WriteComparedPoints(arguments.verifyOutput, run.ComparedPoints());
+  }
   if (!arguments.report.empty()) WriteReport(arguments.report, run);
   display.EndStage();
   display.Finish();

@@ -162,6 +162,7 @@ void SolveArguments::Check() const {
 std::vector<OutputOfRun> SolveArguments::Outputs() const {
   std::vector<OutputOfRun> outputs = {{"--output", output, true},
                                       {"--probe-output", probeOutput},
+                                      {"--verify-output", verifyOutput},
                                       {"--image", image},
                                       {"--report", report},
                                       {"--lightmap", lightMap, true},

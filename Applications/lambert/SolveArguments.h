@@ -33,7 +33,8 @@ struct SolveArguments {
   double time = 0;
   int threads = 0;
   LightArguments lights;
-  std::string probe, probeOutput, image, size = "960x720", camera, up = "auto", report, lightMap;
+  std::string probe, probeOutput, image, size = "960x720", camera, up = "auto", report, lightMap,
+      verifyOutput;
   std::optional<LitMeshSimplificationOptions> simplification;
   std::vector<PageFormat> pageFormats{PageFormat::Hdr};
   AtlasOptions atlas;

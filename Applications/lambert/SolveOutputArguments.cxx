@@ -197,11 +197,16 @@ void SolveArguments::AddOutputsTo(CLI::App* command) {
           "Fewer triangles, light within this fraction of what it was")
       ->check(Within(1e-6, 1, "from 1e-6 to 1"));
   command->add_option("--report", report, "Account of the run, JSON");
+  CLI::Option* verified = command
+                              ->add_option("--verify", verifyPoints,
+                                           "Measure the error at N points against a path trace")
+                              ->expected(0, 1)
+                              ->default_str(std::to_string(kDefaultVerifyPoints))
+                              ->check(CLI::Range(1, 10000000));
   command
-      ->add_option("--verify", verifyPoints, "Measure the error at N points against a path trace")
-      ->expected(0, 1)
-      ->default_str(std::to_string(kDefaultVerifyPoints))
-      ->check(CLI::Range(1, 10000000));
+      ->add_option("--verify-output", verifyOutput,
+                   "CSV of these points, those that hold most of the error first")
+      ->needs(verified);
   AddProgress(command, &progress);
 }
 

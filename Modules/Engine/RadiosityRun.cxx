@@ -268,7 +268,8 @@ void RadiosityRun::Verify(int points, const ProgressCallback& progress) {
   options.growth = kVerificationGrowth;
   const bool isRequested = this->options_.method.method == SolveMethod::Hierarchical;
   options.enough = isRequested ? this->options_.solver.error : 0;
-  this->error_ = MeasureSolutionError(this->scene_, this->solution_, options, progress);
+  this->error_ = MeasureSolutionError(this->scene_, this->solution_, options, progress,
+                                      &this->comparedPoints_);
   this->AddStage("verify", timer.Seconds());
 }
 

@@ -90,6 +90,8 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   const SolverStatistics& Statistics() const { return this->statistics_; }
   const RadiositySolution& Solution() const { return this->solution_; }
   const std::optional<SolutionError>& Error() const { return this->error_; }
+  /// The points that it was measured at, those that hold most of it first.
+  const std::vector<ComparedPoint>& ComparedPoints() const { return this->comparedPoints_; }
   /// What decimation left, where it was asked for; and the error before it, where it was measured.
   const std::optional<LitMeshSimplificationStatistics>& Simplification() const {
     return this->simplification_;
@@ -130,6 +132,7 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   SolverStatistics statistics_;
   RadiositySolution solution_;
   std::optional<SolutionError> error_, refinedError_;
+  std::vector<ComparedPoint> comparedPoints_;
   std::optional<LitMeshSimplificationStatistics> simplification_;
   std::optional<ShownSides> shown_;
   Scene shownScene_;

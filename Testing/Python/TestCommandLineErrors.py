@@ -22,6 +22,7 @@ fails(2, "solve", CORNELL_BOX, "-o", out, "--sky", "1", "1", "-1")
 fails(2, "solve", CORNELL_BOX, "-o", out, "--size", "100", says=["--size"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--camera", "1,2,3", says=["--camera"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--probe", "points.csv", says=["--probe-output"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--verify-output", "points.csv", says=["--verify"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--no-such-option")
 fails(2, "solve", CORNELL_BOX, "-o", out, "--progress", "0", says=["{auto,plain,none}"])
 for option in ("--error", "--time", "--feature-angle", "--exposure", "--ev", "--key", "--white"):

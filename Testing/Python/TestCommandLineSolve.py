@@ -139,6 +139,18 @@ for row, face in zip(rows, largest):
     # Barycentrics in float of a point rounded to float: 1e-3 of the brightest is far above either.
     assert np.allclose(measured, expected, rtol=1e-3, atol=1e-3 * irradiance.max()), (measured, expected)
 
+# Where the error sits: the measured points, whose parts of its square sum to 1, the largest first.
+verified = temporary("verified.csv")
+error = solve(CORNELL_BOX, "-o", out, "--error", "0.3", "--verify", "500", "--verify-output", verified)["error"]
+with open(verified) as file:
+    rows = list(csv.DictReader(file))
+assert list(rows[0]) == ("x,y,z,nx,ny,nz,face,side,r,g,b,reference_r,reference_g,reference_b,"
+                         "standard_error,part").split(","), rows[0]
+parts = [float(row["part"]) for row in rows]
+assert len(rows) == error["points"] and parts == sorted(parts, reverse=True) and abs(sum(parts) - 1) < 1e-4, parts[:9]
+delivered, reference = (sum(float(row[name + band]) for row in rows for band in "rgb") for name in ("", "reference_"))
+assert abs((delivered - reference) / reference - error["bias"]) < 1e-4, (delivered, reference, error)
+
 # A spreadsheet's CSV: a byte order mark and its ends of lines. High in mid-air facing up, outside, and facing nothing.
 with open(probes, "wb") as file:
     file.write(b"\xef\xbb\xbfx,y,z,nx,ny,nz\r\n0.278,0.3,0.279,0,9,0\r\n9,9,9,0,1,0\r\n")

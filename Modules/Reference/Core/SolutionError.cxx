@@ -33,6 +33,12 @@ struct Comparison {
   double variance = 0;              ///< of the noise, all bands
   double error = 0, reference = 0;  ///< |E - Eref|, |Eref|
   double delivered = 0, truth = 0;  ///< sums of the bands
+
+  /// Squared, over its light or the mean light, which is more; without light none.
+  double BoundedError(double meanReference) const {
+    const double scale = std::max(reference, meanReference);
+    return scale > 0 ? squaredError / (scale * scale) : 0;
+  }
 };
 
 /// Places stratified by area over both sides of every face that receives: all fronts, then all
@@ -214,8 +220,7 @@ SolutionError SummarizeError(const std::vector<Spectrum>& delivered,
   double bounded = 0;
   std::vector<double> relative;
   for (const Comparison& c : comparisons) {
-    const double scale = std::max(c.reference, meanReference);
-    bounded += c.squaredError / (scale * scale) / double(comparisons.size());
+    bounded += c.BoundedError(meanReference) / double(comparisons.size());
     relative.push_back(c.error / std::max(c.reference, 1e-3 * meanReference));
   }
   error.bounded = std::sqrt(std::max(0.0, bounded));
@@ -227,6 +232,7 @@ SolutionError SummarizeError(const std::vector<Spectrum>& delivered,
 
 /// What a solution delivers at receiving points, and the truth there.
 struct ErrorSample {
+  std::vector<Place> places;
   std::vector<Spectrum> delivered;
   std::vector<IrradianceEstimate> truth;
   int64_t drawn = 0, missed = 0;
@@ -253,15 +259,40 @@ static void DrawPlaces(const Scene& scene, const SolutionLookup& lookup,
       if (SquaredNorm(reference[i].irradiance) <= 4 * noise) continue;
       ++sample->missed;
     }
+    sample->places.push_back(place);
     sample->delivered.push_back(
         lookup.Irradiance(lookup.Find(place.face, place.side, place.receiver.position)));
     sample->truth.push_back(reference[i]);
   }
 }
 
+/// The points of a sample by what each adds to its bounded error.
+static std::vector<ComparedPoint> ByPart(const ErrorSample& sample) {
+  double meanReference = 0;
+  std::vector<Comparison> comparisons;
+  for (size_t i = 0; i < sample.places.size(); ++i) {
+    comparisons.push_back(Compare(sample.delivered[i], sample.truth[i]));
+    meanReference += comparisons.back().reference / double(sample.places.size());
+  }
+  double sum = 0;
+  std::vector<ComparedPoint> points;
+  for (size_t i = 0; i < sample.places.size(); ++i) {
+    const Place& place = sample.places[i];
+    const double part = comparisons[i].BoundedError(meanReference);
+    sum += part;
+    points.push_back(
+        {place.face, place.side, place.receiver, sample.delivered[i], sample.truth[i], part});
+  }
+  for (ComparedPoint& point : points) point.part = sum > 0 ? point.part / sum : 0;
+  std::stable_sort(points.begin(), points.end(),
+                   [](const auto& a, const auto& b) { return a.part > b.part; });
+  return points;
+}
+
 SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& solution,
                                    const SolutionErrorOptions& options,
-                                   const ProgressCallback& progress) {
+                                   const ProgressCallback& progress,
+                                   std::vector<ComparedPoint>* compared) {
   if (options.points < 1) throw Error("An error needs at least one point to be measured at.");
   const SolutionLookup lookup(solution, scene.mesh.FaceCount());
   RequireSolutionOf(scene, solution);
@@ -269,6 +300,7 @@ SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& 
   const int64_t mostPaths = int64_t(options.growth) * options.points * options.samples;
   SolutionErrorOptions draw = options;
   ErrorSample sample;
+  SolutionError error;
   double done = 0;
   for (uint64_t batch = 1;; ++batch) {
     const ProgressCallback half = [&](double fraction, const char* stage) {
@@ -276,10 +308,10 @@ SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& 
     };
     DrawPlaces(scene, lookup, tracer, draw, &sample, half);
     done += (1 - done) / 2;
-    SolutionError error = SummarizeError(sample.delivered, sample.truth, options.seed);
+    error = SummarizeError(sample.delivered, sample.truth, options.seed);
     error.darkPoints = sample.drawn - error.points;
     error.missedPoints = sample.missed;
-    if (options.enough > 0 && error.Counting() <= options.enough) return error;
+    if (options.enough > 0 && error.Counting() <= options.enough) break;
 
     // More paths a point where their noise is more than the error, else as many points again where
     // few of them decide.
@@ -291,9 +323,11 @@ SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& 
     } else if (!error.IsRmsSure() && 2 * draw.samples * sample.drawn <= mostPaths) {
       draw.points = int(sample.drawn);
     } else {
-      return error;
+      break;
     }
   }
+  if (compared) *compared = ByPart(sample);
+  return error;
 }
 
 }  // namespace lambert

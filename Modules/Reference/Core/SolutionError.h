@@ -44,6 +44,18 @@ struct SolutionError {
   double Counting() const { return this->IsRmsSure() ? rms : bounded; }
 };
 
+/// A place where a solution was compared with the truth.
+struct ComparedPoint {
+  int32_t face;  ///< of the scene's mesh
+  Side side;
+  ReceiverPoint receiver;
+  Spectrum delivered;            ///< W/m2; 0 on a side that the solution does not model
+  IrradianceEstimate reference;  ///< W/m2
+  /// What it adds to the mean square that `SolutionError::bounded` is the root of, over that: the
+  /// parts sum to 1; below 0 where the reference's noise is more than the error. 0 without error.
+  double part = 0;
+};
+
 /// A place at barycentric `b` (of corners 1 and 2) on one side of a face: its normal is the
 /// interpolated one of the mesh, turned to that side; the face's own where it has none.
 ReceiverPoint ReceiverAt(const TriangleMesh& mesh, int64_t face, Side side, const Vec2f& b);
@@ -65,9 +77,10 @@ SolutionError SummarizeError(const std::vector<Spectrum>& delivered,
 /// where the reference finds light there; where the reference finds none within two standard errors
 /// it does not count. A scene without light has no error. Throws Error where the solution belongs
 /// to another scene or does not lie on the faces that it names, for fewer than 1 point or 2
-/// samples; Cancelled.
+/// samples; Cancelled. `compared`, where given: the receiving points, the largest part first.
 SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& solution,
                                    const SolutionErrorOptions& options = {},
-                                   const ProgressCallback& progress = {});
+                                   const ProgressCallback& progress = {},
+                                   std::vector<ComparedPoint>* compared = nullptr);
 
 }  // namespace lambert

@@ -100,6 +100,33 @@ TEST(SolutionError, InterpolatesWithinRefinedFaces) {
   EXPECT_NEAR(error.bias, 0.25, 0.01);
 }
 
+TEST(SolutionError, TellsWhereItSits) {
+  // One patch of 25 is 100 % too bright: its points come first and hold nearly all of the error.
+  const Scene scene = BlackFurnace();
+  RadiositySolution solution = FlatSolution(scene, 1, 6, false);
+  const auto isBright = [](const Vec3f& p) { return p.z == 0 && std::max(p.x, p.y) < 0.3f; };
+  for (size_t i = 0; i < solution.irradiance.size(); ++i) {
+    if (isBright(solution.mesh.positions[i])) solution.irradiance[i] = Spectrum(2.f);
+  }
+  std::vector<ComparedPoint> points;
+  const SolutionError error = MeasureSolutionError(scene, solution, {2000, 256, 1}, {}, &points);
+  ASSERT_EQ(int64_t(points.size()), error.points);
+  double sum = 0, ofBright = 0, square = 0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const ComparedPoint& point = points[i];
+    EXPECT_LE(point.part, points[i > 0 ? i - 1 : 0].part);
+    EXPECT_EQ(point.side, kFront);
+    EXPECT_GT(Dot(point.receiver.normal, scene.mesh.FrontNormal(point.face)), 0.99f);
+    sum += point.part;
+    ofBright += point.delivered.Mean() > 1.05f ? point.part : 0;
+    square += SquaredNorm(point.delivered - point.reference.irradiance) / 3;
+  }
+  EXPECT_NEAR(sum, 1, 1e-6);
+  EXPECT_GT(ofBright, 0.95);
+  EXPECT_NEAR(std::sqrt(square / double(points.size())), error.bounded, 0.1 * error.bounded)
+      << "a furnace of irradiance 1";
+}
+
 TEST(SolutionError, TakesMorePathsWhereNoiseHidesIt) {
   // Two paths a point scatter by some tenth, far more than the 1 % by which the solution is off.
   const Scene scene = BlackFurnace();
