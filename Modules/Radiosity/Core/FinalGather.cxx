@@ -28,8 +28,8 @@ constexpr float kMostTurned = 2;
 constexpr float kUneven = 3, kUnevenOverMean = 0.5f;
 /// A wall is looked for this many times the length that rays skip above a leaf.
 constexpr float kAboveLeaf = 2;
-/// Normals whose cosine is larger than this look the same way.
-constexpr float kSameWay = 0.8f;
+/// Normals whose cosine is larger than this look the same way; those of a flat leaf.
+constexpr float kSameWay = 0.8f, kFlat = 0.9999f;
 /// Bounces between near surfaces that are followed before a leaf is taken as one all the same.
 constexpr int kMostBounces = 2;
 /// A leaf gathers with at least and at most these multiples of the rays of one of mean area.
@@ -163,19 +163,50 @@ Spectrum FinalGather::Brightest() const {
   return brightest;
 }
 
-// Direct light at the samples of a leaf, and what their rays see.
+static GatherPoint PlaceOf(const SurfaceSample& sample) {
+  return {sample.position, sample.normal, sample.normal};
+}
+
+// Straight from the sources leaves receive the same in every round. Light of which they have much
+// in one sample and little in another, as behind walls, is uneven from then on.
+void FinalGather::LightLeaves(const LeafRows& rows, uint64_t seed, int64_t* cast) {
+  std::vector<int64_t> castBy(rows.leaves.size(), 0);
+  ParallelForEach(int64_t(rows.leaves.size()), 16, [&](int64_t row) {
+    const int32_t leaf = rows.leaves[size_t(row)];
+    if (hasGathered_[size_t(leaf)]) return;
+    const uint64_t own = HashBits(seed, uint64_t(leaf));
+    for (size_t k = 0; k < kSamplesPerElement; ++k) {
+      sampleDirect_[size_t(leaf)][k] =
+          direct_
+              .Sample(PlaceOf(hierarchy_[leaf].samples[k]), kDirectRaysAtLeaves, HashBits(own, k),
+                      &castBy[size_t(row)])
+              .irradiance;
+    }
+  });
+  double area = 0, reflected = 0;
+  for (size_t row = 0; row < rows.leaves.size(); ++row) {
+    *cast += castBy[row];
+    const int32_t leaf = rows.leaves[row];
+    Spectrum mean;
+    for (const Spectrum& e : sampleDirect_[size_t(leaf)]) mean += e / float(kSamplesPerElement);
+    area += rows.areas[row];
+    reflected += rows.areas[row] * double((hierarchy_[leaf].reflectance * mean).Mean());
+  }
+  meanRadiosity_ = std::max(meanRadiosity_, float(reflected / area));
+  for (const int32_t leaf : rows.leaves) {
+    if (!hasGathered_[size_t(leaf)]) {
+      isUneven_[size_t(leaf)] = this->IsUneven(leaf, sampleDirect_[size_t(leaf)].data());
+    }
+  }
+}
+
+// What the rays of its samples see.
 void FinalGather::CastFromLeaf(size_t row, uint64_t seed, LeafRows* rows, int64_t* cast) {
   const int32_t leaf = rows->leaves[row];
   GatherPoint points[kSamplesPerElement];
   for (size_t k = 0; k < kSamplesPerElement; ++k) {
-    const SurfaceSample& sample = hierarchy_[leaf].samples[k];
-    points[k] = {sample.position, sample.normal, sample.normal};
-    // Straight from the sources it receives the same in every round.
-    Spectrum& direct = sampleDirect_[size_t(leaf)][k];
-    if (!hasGathered_[size_t(leaf)]) {
-      direct = direct_.Sample(points[k], kDirectRaysAtLeaves, HashBits(seed, k), cast).irradiance;
-    }
-    rows->fromSources[row][k] = direct;
+    points[k] = PlaceOf(hierarchy_[leaf].samples[k]);
+    rows->fromSources[row][k] = sampleDirect_[size_t(leaf)][k];
   }
   const int64_t begin = rows->begin[row];
   BounceRays bounce;
@@ -213,6 +244,7 @@ LeafRows FinalGather::CastFromLeaves(int rays, uint64_t seed, int64_t* cast) {
   rows.rays.resize(size_t(rows.begin.back()));
   rows.fromSources.resize(rows.leaves.size());
 
+  this->LightLeaves(rows, seed, cast);
   std::vector<int64_t> castBy(rows.leaves.size(), 0);
   ParallelForEach(int64_t(rows.leaves.size()), 16, [&](int64_t row) {
     this->CastFromLeaf(size_t(row), HashBits(seed, uint64_t(rows.leaves[size_t(row)])), &rows,
@@ -240,7 +272,9 @@ void FinalGather::GatherAtLeaves(int rays, double share, uint64_t seed, int64_t*
     reflected += double(element.area) * double((element.reflectance * mean).Mean());
   }
   meanRadiosity_ = float(reflected / area);
-  for (const int32_t leaf : rows.leaves) isUneven_[size_t(leaf)] = this->IsUneven(leaf);
+  for (const int32_t leaf : rows.leaves) {
+    isUneven_[size_t(leaf)] = this->IsUneven(leaf, &received_[size_t(leaf) * kPlacesOfLeaf]);
+  }
 }
 
 // How much more a facet of a leaf receives when it turns, by the leaf's irradiance vectors.
@@ -253,15 +287,19 @@ float FinalGather::TurnedTo(int32_t leaf, const Vec3f& from, const Vec3f& to) co
   return before > 0 ? std::min(kMostTurned, after / before) : 1;
 }
 
-// Some of its samples are much brighter than others.
-bool FinalGather::IsUneven(int32_t leaf) const {
+// Some of its samples are much brighter than others; not of a leaf that bends, which hides itself.
+bool FinalGather::IsUneven(int32_t leaf, const Spectrum* atSamples) const {
+  const Element& element = hierarchy_[leaf];
+  for (const SurfaceSample& sample : element.samples) {
+    if (Dot(sample.normal, element.samples[0].normal) < kFlat) return false;
+  }
   float least = std::numeric_limits<float>::max(), most = 0;
   for (size_t k = 0; k < kSamplesPerElement; ++k) {
-    const float irradiance = received_[size_t(leaf) * kPlacesOfLeaf + k].Mean();
+    const float irradiance = atSamples[k].Mean();
     least = std::min(least, irradiance);
     most = std::max(most, irradiance);
   }
-  const float reflected = hierarchy_[leaf].reflectance.Mean() * (most - least);
+  const float reflected = element.reflectance.Mean() * (most - least);
   return most > kUneven * least && reflected > kUnevenOverMean * meanRadiosity_;
 }
 
@@ -270,7 +308,7 @@ bool FinalGather::IsUneven(int32_t leaf) const {
 int FinalGather::TellingSample(int32_t leaf, const Vec3f& place, const Vec3f& normal,
                                int64_t* rays) const {
   const Element& element = hierarchy_[leaf];
-  const bool asks = isUneven_[size_t(leaf)] && element.IsPolygon();
+  const bool asks = isUneven_[size_t(leaf)];
   const Vec3f above = normal * (kAboveLeaf * rayScene_.Epsilon());
   std::array<bool, kSamplesPerElement> isHidden{};
   int darkest = -1;

@@ -91,11 +91,12 @@ class FinalGather {
   }
   int32_t LeafAt(int64_t face, Side side, const Vec3f& position) const;
   LeafRows CastFromLeaves(int rays, uint64_t seed, int64_t* cast);
+  void LightLeaves(const LeafRows& rows, uint64_t seed, int64_t* cast);
   void CastFromLeaf(size_t row, uint64_t seed, LeafRows* rows, int64_t* cast);
   float TurnedTo(int32_t leaf, const Vec3f& from, const Vec3f& to) const;
   Spectrum TurnedFromMean(int32_t leaf, const Vec3f& to) const;
   int TellingSample(int32_t leaf, const Vec3f& place, const Vec3f& normal, int64_t* rays) const;
-  bool IsUneven(int32_t leaf) const;
+  bool IsUneven(int32_t leaf, const Spectrum* atSamples) const;
   void Receive(int32_t leaf, const Spectrum& irradiance);
   template <class Use>
   void CastBatch(const GatherPoint* points, int count, const BounceRays& rays, int64_t* cast,

@@ -25,10 +25,12 @@ constexpr float kFirstNonlinearity = 0.7f;
 constexpr float kLeastNonlinearity = 0.05f;
 /// Differences up to this many times the variance of a triangle's corners are taken for scatter.
 constexpr double kScatter = 3;
-/// Of the triangles of a size at least so many, and one to so many, are asked in their middle; all
-/// are where they hold more than this part of the squared error that is wanted.
+/// Of triangles that are alike at least so many, and one to so many, are asked in their middle;
+/// those of which no others are may hold this part of the squared error that is wanted.
 constexpr size_t kLeastProbes = 32, kProbedPart = 16;
-constexpr double kProbedError = 0.05;
+constexpr double kUnprobedError = 0.1;
+/// Errors below this part of the wanted one are alike.
+constexpr double kLeastError = 1. / 64;
 /// Tells the key of a triangle's middle from that of a point.
 constexpr uint64_t kMiddle = 0x6d6964646c65;
 
@@ -97,16 +99,21 @@ double GatheredMesh::Error(int64_t triangle, const LightScale& scale) const {
   const double part = patch >= 0 && size_t(patch) < nonlinearity_.size()
                           ? double(nonlinearity_[size_t(patch)])
                           : double(kFirstNonlinearity);
-  const double light = this->MeanLight(triangle);
   double error = part * part * this->Difference(triangle) / 6 *
-                 ErrorWeight(light, scale.mean, scale.meanSquare);
+                 ErrorWeight(this->DarkestLight(triangle), scale.mean, scale.meanSquare);
   const auto probed = probed_.find(this->Key(triangle));
   if (probed != probed_.end()) {
-    const double brightest = std::max(light, std::sqrt(SquaredNorm(probed->second.irradiance)));
-    error = std::max(
-        error, probed->second.deviation * ErrorWeight(brightest, scale.mean, scale.meanSquare));
+    error = std::max(error, this->ErrorOfMiddle(triangle, probed->second, scale));
   }
   return this->Area(triangle) * error;
+}
+
+// The same, not times area, as its middle tells it.
+double GatheredMesh::ErrorOfMiddle(int64_t triangle, const Middle& middle,
+                                   const LightScale& scale) const {
+  const double darkest =
+      std::min(this->DarkestLight(triangle), std::sqrt(SquaredNorm(middle.irradiance)));
+  return middle.deviation * ErrorWeight(darkest, scale.mean, scale.meanSquare);
 }
 
 bool GatheredMesh::Receives(int64_t triangle) const {
@@ -121,48 +128,61 @@ uint64_t GatheredMesh::Key(int64_t triangle) const {
   return key;
 }
 
-// A triangle may hold a light or a shadow that none of its corners lies in. Of every size some are
-// asked in their middle; where those tell of an error that counts, all of that size are.
+// A triangle may hold a light or a shadow that none of its corners lies in. Of all that are alike
+// in size and in what their corners tell some are asked in their middle; all are where that pays
+// most, until those that are left hold too little to count.
 void GatheredMesh::ProbeMiddles(double wanted, int64_t* rays) {
-  // Triangles by size, an octave of area a class; those that were asked before stay as they are.
+  // Triangles that were not asked before, by an octave of area and of error.
   const LightScale scale = this->MeasureLight();
   if (!(scale.mean > 0)) return;
-  std::map<int, std::vector<int64_t>> classes;
+  struct Alike {
+    std::vector<int64_t> triangles;
+    size_t asked = 0;
+    double error = 0;  ///< squared, of each, by those that were asked
+  };
+  std::map<std::array<int, 2>, Alike> classes;
   for (int64_t t = 0; t < int64_t(mesh_.Triangles().size()); ++t) {
-    if (!this->Receives(t) || !(this->Area(t) > 0) || probed_.count(this->Key(t))) continue;
-    classes[std::ilogb(this->Area(t))].push_back(t);
+    const double area = this->Area(t);
+    if (!this->Receives(t) || !(area > 0) || probed_.count(this->Key(t))) continue;
+    const double squared = this->Error(t, scale) / (area * wanted * wanted);
+    const int error = int(std::floor(std::log2(std::max(squared, kLeastError * kLeastError)) / 2));
+    classes[{std::ilogb(area), error}].triangles.push_back(t);
   }
 
   // A few of each.
   std::vector<int64_t> few;
-  std::map<int, std::pair<size_t, size_t>> fewOfClass;
-  for (auto& [size, triangles] : classes) {
+  for (auto& [key, alike] : classes) {
+    std::vector<int64_t>& triangles = alike.triangles;
     std::sort(triangles.begin(), triangles.end(), [&](int64_t a, int64_t b) {
       const uint64_t hashA = HashBits(uint64_t(a)), hashB = HashBits(uint64_t(b));
       return hashA < hashB;
     });
-    const size_t count =
+    alike.asked =
         std::min(triangles.size(), std::max(kLeastProbes, triangles.size() / kProbedPart));
-    fewOfClass[size] = {few.size(), few.size() + count};
-    few.insert(few.end(), triangles.begin(), triangles.begin() + int64_t(count));
+    few.insert(few.end(), triangles.begin(), triangles.begin() + int64_t(alike.asked));
   }
   this->Probe(few, rays);
 
-  // All of the classes that have something to tell.
-  std::vector<int64_t> rest;
-  for (const auto& [size, triangles] : classes) {
-    const auto& [begin, end] = fewOfClass[size];
-    double error = 0;
-    for (size_t i = begin; i < end; ++i) {
-      const Middle& middle = probed_[this->Key(few[i])];
-      const double light =
-          std::max(std::sqrt(SquaredNorm(middle.irradiance)), this->MeanLight(few[i]));
-      error += this->Area(few[i]) / scale.area * middle.deviation *
-               ErrorWeight(light, scale.mean, scale.meanSquare);
+  // All of those that have something to tell.
+  std::vector<const Alike*> byError;
+  for (auto& [key, alike] : classes) {
+    for (size_t i = 0; i < alike.asked; ++i) {
+      const int64_t t = alike.triangles[i];
+      const double error = this->ErrorOfMiddle(t, probed_[this->Key(t)], scale);
+      alike.error += this->Area(t) / scale.area * error / double(alike.asked);
     }
-    error *= double(triangles.size()) / double(end - begin);
-    if (error < kProbedError * wanted * wanted) continue;
-    rest.insert(rest.end(), triangles.begin() + int64_t(end - begin), triangles.end());
+    byError.push_back(&alike);
+  }
+  std::sort(byError.begin(), byError.end(), [](const Alike* a, const Alike* b) {
+    return a->error != b->error ? a->error < b->error : a->triangles < b->triangles;
+  });
+  double left = 0;
+  std::vector<int64_t> rest;
+  for (const Alike* alike : byError) {
+    left += alike->error * double(alike->triangles.size() - alike->asked);
+    if (left < kUnprobedError * wanted * wanted) continue;
+    rest.insert(rest.end(), alike->triangles.begin() + int64_t(alike->asked),
+                alike->triangles.end());
   }
   this->Probe(rest, rays);
 }
@@ -285,6 +305,15 @@ double GatheredMesh::MeanLight(int64_t triangle) const {
     light += std::sqrt(SquaredNorm(irradiance_[size_t(p)])) / 3;
   }
   return light;
+}
+
+// A bright triangle that a shadow ends in is wrong where it is dark.
+double GatheredMesh::DarkestLight(int64_t triangle) const {
+  double darkest = std::numeric_limits<double>::max();
+  for (const int32_t p : mesh_.PointsOfTriangles()[size_t(triangle)]) {
+    darkest = std::min(darkest, std::sqrt(SquaredNorm(irradiance_[size_t(p)])));
+  }
+  return darkest;
 }
 
 // Of what receives; what blazes counts as a multiple of the mean.

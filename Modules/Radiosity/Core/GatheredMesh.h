@@ -81,11 +81,19 @@ class GatheredMesh {
   struct LightScale {
     double area = 0, mean = 0, meanSquare = 0;
   };
+  /// What is found in the middle of a triangle: its irradiance, W/m2, and the squared deviation of
+  /// that from what the corners interpolate, beyond scatter.
+  struct Middle {
+    Spectrum irradiance;
+    double deviation = 0;
+  };
   LightScale MeasureLight() const;
   double MeanLight(int64_t triangle) const;
+  double DarkestLight(int64_t triangle) const;
   void Probe(const std::vector<int64_t>& triangles, int64_t* rays);
   double Difference(int64_t triangle) const;
   double Error(int64_t triangle, const LightScale& scale) const;
+  double ErrorOfMiddle(int64_t triangle, const Middle& middle, const LightScale& scale) const;
   double Area(int64_t triangle) const;
   uint64_t Key(int64_t triangle) const;
   bool Receives(int64_t triangle) const;
@@ -109,14 +117,8 @@ class GatheredMesh {
   const std::vector<bool> receives_;  ///< by face: its light counts in the error
   RefinedMesh mesh_;
   const int64_t firstTriangles_;
-  std::vector<Spectrum> irradiance_;  ///< per point
-  std::vector<float> variance_;       ///< per point, of the irradiance
-  /// What is found in the middle of a triangle: its irradiance, W/m2, and the squared deviation of
-  /// that from what the corners interpolate, beyond scatter.
-  struct Middle {
-    Spectrum irradiance;
-    double deviation = 0;
-  };
+  std::vector<Spectrum> irradiance_;             ///< per point
+  std::vector<float> variance_;                  ///< per point, of the irradiance
   std::unordered_map<uint64_t, Middle> probed_;  ///< by triangle
   std::vector<uint8_t> isNew_;                   ///< per point: gathered in this round
   std::vector<float> nonlinearity_;              ///< per patch

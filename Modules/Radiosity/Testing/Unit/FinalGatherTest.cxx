@@ -39,6 +39,30 @@ TEST(FinalGather, LightIsFollowedToTheLastBounce) {
   EXPECT_EQ(BounceInCube(0.9f, 1, 50), BounceInCube(0.9f, 1, 0));
 }
 
+TEST(FinalGather, NoLightComesThroughAWallThatStandsOnALeaf) {
+  // A closed box lies over two thirds of a floor that a lamp lights and that is one leaf, with
+  // samples on both sides of the wall.
+  testing::ModelledScene modelled;
+  TriangleMesh& mesh = modelled.scene.mesh;
+  testing::AddQuad(&mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Spectrum(0.8f));
+  testing::AddBox(&mesh, {-0.1f, -0.1f, -0.1f}, {0.67f, 1.1f, 0.5f}, testing::BoxMaterials(0.8f, 0),
+                  true);
+  testing::AddQuad(&mesh, {0, 0, 3}, {0, 1, 0}, {1, 0, 0}, Spectrum(0.f), Spectrum(100.f), 1, 1, 1);
+  modelled.Model();
+  ElementLight light;
+  light.Grow(*modelled.hierarchy);
+  FinalGather gather(*modelled.hierarchy, *modelled.rayScene, &light);
+  int64_t rays = 0;
+  gather.GatherAtLeaves(1024, 1, 1, &rays);
+  const auto bounced = [&](const Vec3f& place, const Vec3f& normal) {
+    BounceRays bounce;
+    bounce.count = 1024;
+    return gather.Bounces({{place, normal, normal, 0}}, bounce, &rays)[0].Mean().g;
+  };
+  EXPECT_LT(bounced({0.67f, 0.5f, 0.25f}, {-1, 0, 0}), 1e-4f) << "inside";
+  EXPECT_GT(bounced({0.67f, 0.5f, 0.25f}, {1, 0, 0}), 0.1f) << "outside";
+}
+
 TEST(FinalGather, FacetsThatTurnWithinALeafAddNoLight) {
   // A furnace in one leaf that faces all ways, of which links knew that its light comes from above,
   // and a lamp outside: what is there is brighter than the furnace could ever be.
