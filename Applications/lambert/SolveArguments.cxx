@@ -190,9 +190,6 @@ void SolveArguments::RequireOptionsOfOutputs() const {
   // Of the solved scene.
   refuse(!IsSolutionFileName(output) && !isModel, "--output",
          "the name has to end in .vtp, .vtpc, .ply, .glb, .gltf, .html or .obj");
-  refuse(isModel && (introducedTriangles || !representations.IsEmpty()), "--output",
-         "glTF, HTML and OBJ show all surfaces in one way; leave --introduced and --represent to "
-         ".vtp, .vtpc and .ply");
   refuse(bothSides && FileEnding(output) != ".ply", "--both-sides",
          "is for PLY; all other outputs have both sides as it is");
 

@@ -115,8 +115,7 @@ void AddWanted(const std::string& text, WantedRepresentations* wanted) {
 void AddRepresentationOptions(CLI::App* command, CLI::Option* lightMap, SolveArguments* arguments) {
   CLI::Option* introduced = command->add_option_function<int64_t>(
       "--introduced", [=](int64_t most) { arguments->introducedTriangles = most; },
-      "Light map beside .vtp, .vtpc, .ply: triangles that refinement may add to surfaces lit by "
-      "their points");
+      "Light map: triangles that refinement may add to surfaces lit by their points");
   introduced->check(CLI::NonNegativeNumber)->needs(lightMap);
   command
       ->add_flag(
@@ -129,8 +128,8 @@ void AddRepresentationOptions(CLI::App* command, CLI::Option* lightMap, SolveArg
           [=](const std::vector<std::string>& wanted) {
             for (const std::string& text : wanted) AddWanted(text, &arguments->representations);
           },
-          "Light map beside .vtp, .vtpc, .ply: MATERIAL:points|lightmap, part=NAME:..., "
-          "surface=NUMBER:... (of the report), whatever refinement did to it")
+          "Light map: MATERIAL:points|lightmap, part=NAME:..., surface=NUMBER:... (of the report), "
+          "whatever refinement did to it")
       ->allow_extra_args(false)
       ->needs(lightMap);
 }

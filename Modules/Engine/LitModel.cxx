@@ -11,6 +11,7 @@
 #include "Scene/Core/BaseTexture.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 #include <numeric>
@@ -175,32 +176,48 @@ LitImage ImageOfPage(const RadiosityPage& page, const ToneMapping& toneMapping, 
   return image;
 }
 
+/// What a light map shows of a scene.
+struct MappedFaces {
+  const TriangleMesh& mesh;  ///< in the order of the atlas
+  const RadiosityAtlas& atlas;
+  const LightMap& map;
+  std::vector<uint8_t> sides;      ///< by surface: that shows
+  std::vector<int64_t> inputFace;  ///< by face: of the scene
+  std::vector<uint8_t> inputSide;  ///< by face: the side of that face which shows
+};
+
 /// Faces whose light the map holds, but for those that `keeps` its textures: by face, whether the
 /// side that shows is lit. The triangles of the solution that lie elsewhere go to `others`.
 template <class Keeps>
-std::vector<bool> MappedFaces(const TriangleMesh& mesh, const RadiositySolution& solution,
-                              const std::vector<uint8_t>& sides, const Keeps& keeps,
-                              std::vector<int64_t>* others) {
-  std::vector<bool> isMapped(mesh.triangles.size(), false);
+std::vector<bool> LitFaces(const TriangleMesh& scene, const MappedFaces& mapped,
+                           const RadiositySolution& solution, const Keeps& keeps,
+                           std::vector<int64_t>* others) {
+  // By face of the scene and side: what shows it.
+  std::vector<std::array<int64_t, 2>> shows(scene.triangles.size(), {-1, -1});
+  for (size_t face = 0; face < mapped.inputFace.size(); ++face) {
+    shows[static_cast<size_t>(mapped.inputFace[face])][mapped.inputSide[face]] =
+        static_cast<int64_t>(face);
+  }
+  std::vector<bool> isLit(mapped.inputFace.size(), false);
   for (size_t triangle = 0; triangle < solution.side.size(); ++triangle) {
-    const size_t face = static_cast<size_t>(solution.inputFaceId[triangle]);
-    if (!keeps(solution.inputFaceId[triangle]) &&
-        solution.side[triangle] == sides[static_cast<size_t>(mesh.surfaceId[face])]) {
-      isMapped[face] = true;
+    const int64_t inputFace = solution.inputFaceId[triangle];
+    const int64_t face = shows[static_cast<size_t>(inputFace)][solution.side[triangle]];
+    if (face >= 0 && !keeps(inputFace)) {
+      isLit[static_cast<size_t>(face)] = true;
     } else {
       others->push_back(static_cast<int64_t>(triangle));
     }
   }
-  return isMapped;
+  return isLit;
 }
 
 /// The mapped faces of a page, wound towards the side that shows.
 LitMesh MeshOfPage(const TriangleMesh& split, const std::vector<Vec2f>& textureCoords,
-                   const std::vector<int32_t>& pageOfFace, int page,
-                   const std::vector<bool>& isMapped, const std::vector<uint8_t>& sides) {
+                   const std::vector<int32_t>& pageOfFace, int page, const std::vector<bool>& isLit,
+                   const std::vector<uint8_t>& sides) {
   std::vector<int64_t> faces, points;
   for (size_t face = 0; face < split.triangles.size(); ++face) {
-    if (pageOfFace[face] == page && isMapped[face]) {
+    if (pageOfFace[face] == page && isLit[face]) {
       faces.push_back(static_cast<int64_t>(face));
     }
   }
@@ -217,6 +234,50 @@ LitMesh MeshOfPage(const TriangleMesh& split, const std::vector<Vec2f>& textureC
     }
   }
   return lit;
+}
+
+/// What the light map shows, a mesh and an image a page; then all else that is lit, by its points.
+LitModel MakeMappedModel(const Scene& scene, const RadiositySolution& solution,
+                         const MappedFaces& mapped, const LitModelOptions& options) {
+  // What leaves the surfaces of the map.
+  LitModel model = EmptyModel(scene, solution);
+  const BaseTextures textures(scene);
+  const ToneMapping toneMapping = AdaptTo(solution, options.tone);
+  const BaseTextures texturesOfMap = textures.On(mapped.mesh);
+  const std::vector<RadiosityPage> pages =
+      MakeRadiosityMap(mapped.mesh, mapped.atlas, mapped.map, mapped.sides,
+                       options.keepTextures ? nullptr : &texturesOfMap, options.bakedSize);
+
+  // Its faces.
+  std::vector<int64_t> others;
+  const auto keepsTexture = [&](int64_t face) {
+    return options.keepTextures && textures.IsTextured(face);
+  };
+  const std::vector<bool> isLit = LitFaces(scene.mesh, mapped, solution, keepsTexture, &others);
+  TriangleMesh split = mapped.mesh;
+  const std::vector<Vec2f> textureCoords = SplitAtCharts(mapped.atlas, &split);
+  std::vector<int32_t> pageOfFace;
+  for (int32_t chart : ChartOfFace(mapped.atlas.set)) {
+    pageOfFace.push_back(mapped.atlas.pageOfChart[static_cast<size_t>(chart)]);
+  }
+  for (int page = 0; page < mapped.atlas.pages; ++page) {
+    LitMesh mesh = MeshOfPage(split, textureCoords, pageOfFace, page, isLit, mapped.sides);
+    if (mesh.triangles.empty()) {
+      continue;
+    }
+    const RadiosityPage& radiosity = pages[static_cast<size_t>(page)];
+    mesh.name = "light map " + std::to_string(page);
+    mesh.image = static_cast<int>(model.images.size());
+    model.images.push_back(ImageOfPage(radiosity, toneMapping, &model.clippedTexels));
+    model.images.back().name = mesh.name;
+    model.bakedTexels += radiosity.isTextured ? int64_t(radiosity.texels.size()) : 0;
+    model.meshes.push_back(std::move(mesh));
+  }
+
+  // Lit sides that it does not hold.
+  const BaseTextures* shown = options.texturesAtPoints ? &textures : nullptr;
+  PointLitMeshes(scene, solution, shown, toneMapping, &model).Add(others);
+  return model;
 }
 }  // namespace
 
@@ -238,44 +299,21 @@ LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
 LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
                       const RadiosityAtlas& atlas, const LightMap& map,
                       const LitModelOptions& options) {
-  // What leaves the surfaces, and the sides on which it shows.
-  LitModel model = EmptyModel(scene, solution);
-  const BaseTextures textures(scene);
-  const ToneMapping toneMapping = AdaptTo(solution, options.tone);
-  const std::vector<uint8_t> sides = BrighterSidesOfSurfaces(scene.mesh, solution);
-  const std::vector<RadiosityPage> pages = MakeRadiosityMap(
-      scene.mesh, atlas, map, sides, options.keepTextures ? nullptr : &textures, options.bakedSize);
-
-  // Faces of the map, a mesh and an image a page.
-  std::vector<int64_t> others;
-  const auto keepsTexture = [&](int64_t face) {
-    return options.keepTextures && textures.IsTextured(face);
-  };
-  const std::vector<bool> isMapped =
-      MappedFaces(scene.mesh, solution, sides, keepsTexture, &others);
-  TriangleMesh split = scene.mesh;
-  const std::vector<Vec2f> textureCoords = SplitAtCharts(atlas, &split);
-  std::vector<int32_t> pageOfFace;
-  for (int32_t chart : ChartOfFace(atlas.set)) {
-    pageOfFace.push_back(atlas.pageOfChart[static_cast<size_t>(chart)]);
+  MappedFaces mapped{scene.mesh, atlas, map, BrighterSidesOfSurfaces(scene.mesh, solution), {}, {}};
+  mapped.inputFace.resize(scene.mesh.triangles.size());
+  std::iota(mapped.inputFace.begin(), mapped.inputFace.end(), int64_t(0));
+  for (const int32_t surface : scene.mesh.surfaceId) {
+    mapped.inputSide.push_back(mapped.sides[static_cast<size_t>(surface)]);
   }
-  for (int page = 0; page < atlas.pages; ++page) {
-    LitMesh mesh = MeshOfPage(split, textureCoords, pageOfFace, page, isMapped, sides);
-    if (mesh.triangles.empty()) {
-      continue;
-    }
-    const RadiosityPage& radiosity = pages[static_cast<size_t>(page)];
-    mesh.name = "light map " + std::to_string(page);
-    mesh.image = static_cast<int>(model.images.size());
-    model.images.push_back(ImageOfPage(radiosity, toneMapping, &model.clippedTexels));
-    model.images.back().name = mesh.name;
-    model.bakedTexels += radiosity.isTextured ? int64_t(radiosity.texels.size()) : 0;
-    model.meshes.push_back(std::move(mesh));
-  }
+  return MakeMappedModel(scene, solution, mapped, options);
+}
 
-  // Lit sides that it does not hold.
-  const BaseTextures* shown = options.texturesAtPoints ? &textures : nullptr;
-  PointLitMeshes(scene, solution, shown, toneMapping, &model).Add(others);
-  return model;
+LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
+                      const RepresentedScene& represented, const LitModelOptions& options) {
+  const SurfaceSubset& subset = represented.mapped;
+  const MappedFaces mapped{subset.mesh,      represented.atlas,
+                           represented.map,  BrighterSidesOfSurfaces(subset.mesh, subset.solution),
+                           subset.inputFace, SidesOfMappedFaces(represented)};
+  return MakeMappedModel(scene, solution, mapped, options);
 }
 }  // namespace lambert

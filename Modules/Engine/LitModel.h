@@ -4,6 +4,7 @@
 #define LitModel_h
 
 #include "Atlas/Core/LightMap.h"
+#include "Atlas/Core/SurfaceRepresentation.h"
 #include "Display/Core/ToneMapping.h"
 #include "Scene/Core/RadiositySolution.h"
 #include "Scene/Core/Scene.h"
@@ -69,6 +70,13 @@ LAMBERTENGINE_EXPORT LitModel MakeLitModel(const Scene& scene, const RadiositySo
 /// Throws Error where the arguments do not belong together.
 LAMBERTENGINE_EXPORT LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
                                            const RadiosityAtlas& atlas, const LightMap& map,
+                                           const LitModelOptions& options = {});
+
+/// Every surface in its representation: what the light map takes as its pages show it, all other
+/// lit sides by their points, both in the one tone of the whole solution. `represented` is of
+/// `scene`; `solution` may have been simplified since. Throws as above.
+LAMBERTENGINE_EXPORT LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
+                                           const RepresentedScene& represented,
                                            const LitModelOptions& options = {});
 }  // namespace lambert
 

@@ -253,9 +253,14 @@ void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
 }
 
 void RadiosityRun::DrawModel(const LitModelOptions& options, const std::optional<Camera>& camera) {
-  this->model_ = this->lightMap_ ? MakeLitModel(this->LaidScene(), this->SolutionAsShown(),
-                                                this->atlas_, *this->lightMap_, options)
-                                 : MakeLitModel(this->scene_, this->solution_, options);
+  if (this->represented_) {
+    this->model_ = MakeLitModel(this->scene_, this->solution_, *this->represented_, options);
+  } else if (this->lightMap_) {
+    this->model_ = MakeLitModel(this->LaidScene(), this->SolutionAsShown(), this->atlas_,
+                                *this->lightMap_, options);
+  } else {
+    this->model_ = MakeLitModel(this->scene_, this->solution_, options);
+  }
   if (camera) {
     this->model_->camera = *camera;
   }

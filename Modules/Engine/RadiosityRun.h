@@ -70,9 +70,9 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   void LayFlat(const ProgressCallback& progress = {});
   /// Lays the scene flat and draws the solution into its texels. Throws as LayFlat does.
   void DrawLightMap(const ProgressCallback& progress = {});
-  /// Makes what viewers draw: of the light map where there is one, else of the points. The camera
-  /// is `camera`, else that of the scene, else one that is chosen. Not where surfaces are
-  /// represented in both ways.
+  /// Makes what viewers draw: each surface in its representation where those are chosen, else all
+  /// by the light map where there is one, else by the points. The camera is `camera`, else that of
+  /// the scene, else one that is chosen.
   void DrawModel(const LitModelOptions& options = {}, const std::optional<Camera>& camera = {});
   /// Measures how far the solution is from a path-traced reference at `points` points; with up to
   /// four times the paths where those leave open whether the request is met.

@@ -6,6 +6,9 @@ import subprocess
 import sys
 
 import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkImageData
+from vtkmodules.vtkIOImage import vtkPNGWriter
 
 LAMBERT = os.path.join(os.environ["LAMBERT_BIN_DIR"], "lambert")
 DATA = os.environ["LAMBERT_DATA_DIR"]
@@ -47,6 +50,19 @@ def fails(exit_code, *arguments, says=(), environment=None):
         assert len(lines) == 1 and lines[0].startswith("lambert: ") and lines[0].endswith("."), lines
     for word in says:
         assert word in done.stderr, (word, done.stderr)
+
+
+def write_png(name, codes):
+    """A PNG file of rows x columns x 3 codes, the lowest row first."""
+    codes = np.asarray(codes, np.uint8)
+    image = vtkImageData()
+    image.SetDimensions(codes.shape[1], codes.shape[0], 1)
+    image.GetPointData().SetScalars(numpy_to_vtk(codes.reshape(-1, 3)))
+    writer = vtkPNGWriter()
+    writer.SetInputData(image)
+    writer.SetFileName(name)
+    writer.Write()
+    return name
 
 
 def write_hdr(name, texels):

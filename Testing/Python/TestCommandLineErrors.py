@@ -51,8 +51,6 @@ for name, options, says in ((out, ["--lightmap", temporary("map.vtp"), "--keep-t
                              ["--baked-size"]),
                             (temporary("never.glb"), ["--lightmap", temporary("map.vtp"), "--keep-textures", "--baked-size",
                                                       "512"], ["--baked-size", "--keep-textures"]),
-                            (temporary("never.glb"), ["--lightmap", temporary("map.vtp"), "--introduced", "9"],
-                             ["--introduced"]),
                             (temporary("never.glb"), ["--tone", "local"], ["--tone", "local", "--image"]),
                             (temporary("never.ply"), ["--tone", "local"], ["--tone", "local", "--image"]),
                             (out, ["--image", picture, "--false-colors", "lux", "--tone", "local"],

@@ -3,25 +3,15 @@ import os
 
 import numpy as np
 from Browser import Browser, picture
-from CommandLine import fails, solve, temporary
-from GltfModel import GltfModel, insist_on_valid
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOImage import vtkPNGWriter
+from CommandLine import fails, solve, temporary, write_png
+from GltfModel import REPEAT, GltfModel, decoded, insist_on_valid
 
 import lambert
 
 # A floor of 2 m under four by four checks, light and dark, of an image that repeats once; a wall without one; a lamp.
 CHECKS, CODES, FACTOR = 4, (230, 90), (0.9, 0.8, 0.7)
-image_name = temporary("checks of the floor.png")
-rows = np.add.outer(np.arange(64) // 32, np.arange(64) // 32) % 2
-data = vtkImageData()
-data.SetDimensions(64, 64, 1)
-data.GetPointData().SetScalars(numpy_to_vtk(np.repeat(np.where(rows, CODES[1], CODES[0]), 3).reshape(-1, 3).astype(np.uint8)))
-writer = vtkPNGWriter()
-writer.SetInputData(data)
-writer.SetFileName(image_name)
-writer.Write()
+is_dark = np.add.outer(np.arange(64) // 32, np.arange(64) // 32) % 2
+image_name = write_png(temporary("checks of the floor.png"), np.where(is_dark, CODES[1], CODES[0])[..., None].repeat(3, 2))
 scene = temporary("floor.obj")
 with open(temporary("floor.mtl"), "w") as file:
     file.write(f"newmtl floor\nKd {' '.join(map(str, FACTOR))}\nmap_Kd {os.path.basename(image_name)}\n"
@@ -45,23 +35,12 @@ assert told_of_baked["baked_texels"] == 512 * 512  # The largest multiple of the
 insist_on_valid(by_points, baked, kept)
 
 
-def decoded(codes):
-    codes = np.asarray(codes) / 255.
-    return np.where(codes <= 0.04045, codes / 12.92, ((codes + 0.055) / 1.055) ** 2.4)
-
-
-def image_of(model, material):
-    texture = model.document["textures"][material["pbrMetallicRoughness"]["baseColorTexture"]["index"]]
-    image = model.document["images"][texture["source"]]
-    return model.view(image["bufferView"]), model.document["samplers"][texture["sampler"]]
-
-
 def floor_of(model):
     """What shows at the middles of refined triangles well within checks, linear, and where they are."""
     (attributes, triangles, material), = [p for p in model.primitives() if p[2]["name"] == "floor"]
-    bytes_of_image, sampler = image_of(model, material)
+    bytes_of_image, sampler = model.image(material)
     assert bytes_of_image == open(image_name, "rb").read()  # The file's own
-    assert sampler["wrapS"] == sampler["wrapT"] == 10497  # It repeats.
+    assert sampler["wrapS"] == sampler["wrapT"] == REPEAT  # It repeats.
     assert np.allclose(material["pbrMetallicRoughness"]["baseColorFactor"], (*FACTOR, 1))
     places = attributes["POSITION"][triangles].mean(axis=1)
     down = attributes["TEXCOORD_0"][triangles].mean(axis=1) * CHECKS / 2
@@ -84,7 +63,7 @@ model = GltfModel(baked)
 assert not others and "COLOR_0" not in attributes
 png = temporary("baked.png")
 with open(png, "wb") as file:
-    file.write(image_of(model, material)[0])
+    file.write(model.image(material)[0])
 page = picture(png)[::-1]  # Rows from above
 found = np.zeros_like(shown)
 for corners in triangles:

@@ -71,7 +71,10 @@ std::vector<SurfaceCost> MeasureSurfaces(const TriangleMesh& mesh,
     errors[surface].Add(atPoints, MeanOverCorners(solution.irradiance, solution.mesh, t),
                         solution.mesh.Area(int64_t(t)));
   }
-  for (size_t s = 0; s < costs.size(); ++s) costs[s].inputPointError = errors[s].Rms();
+  for (size_t s = 0; s < costs.size(); ++s) {
+    costs[s].side = sides[s];
+    costs[s].inputPointError = errors[s].Rms();
+  }
   return costs;
 }
 
@@ -327,6 +330,17 @@ RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& 
   return scene;
 }
 
+std::vector<uint8_t> SidesOfMappedFaces(const RepresentedScene& scene) {
+  std::vector<uint8_t> ofSurfaces, ofFaces;
+  for (const SurfaceCost& cost : scene.surfaces) {
+    if (cost.chosen == Representation::LightMap) ofSurfaces.push_back(cost.side);
+  }
+  for (const int32_t surface : scene.mapped.mesh.surfaceId) {
+    ofFaces.push_back(ofSurfaces[size_t(surface)]);
+  }
+  return ofFaces;
+}
+
 RepresentedMesh JoinRepresentations(const RepresentedScene& scene) {
   // What the light map takes.
   RepresentedMesh joined;
@@ -358,11 +372,7 @@ RepresentedMesh JoinRepresentations(const RepresentedScene& scene) {
   if (!scene.hasSheets) return joined;
 
   // The sides that they show.
-  std::vector<uint8_t> mappedSides;
-  for (const SurfaceCost& cost : scene.surfaces) {
-    if (cost.chosen == Representation::LightMap) mappedSides.push_back(cost.side);
-  }
-  for (const int32_t s : scene.mapped.mesh.surfaceId) joined.side.push_back(mappedSides[size_t(s)]);
+  joined.side = SidesOfMappedFaces(scene);
   for (const size_t row : scene.rowOfPoints) joined.side.push_back(scene.surfaces[row].side);
   return joined;
 }

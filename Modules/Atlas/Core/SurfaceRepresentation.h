@@ -73,6 +73,9 @@ RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& 
                                    const AtlasOptions& atlasOptions,
                                    const ProgressCallback& progress = {});
 
+/// By face of `scene.mapped.mesh`: the side of its face of the solved mesh that it shows.
+std::vector<uint8_t> SidesOfMappedFaces(const RepresentedScene& scene);
+
 /// All surfaces in one mesh, whatever shows their light: those of the light map first, split at
 /// their charts, with the light that lookups bring to their points.
 struct RepresentedMesh {

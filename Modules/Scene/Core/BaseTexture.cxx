@@ -22,23 +22,31 @@ double TwiceArea(const std::array<Vec2f, 3>& corners) {
 
 }  // namespace
 
-BaseTextures::BaseTextures(const Scene& scene) : scene_(scene) {
+BaseTextures::BaseTextures(const Scene& scene) : mesh_(&scene.mesh) {
+  TextureLibrary library;
   for (const Material& material : scene.materials) {
     Decoded decoded;
     if (material.baseTexture && !scene.mesh.uvs.empty()) {
       const TextureSource& source = *material.baseTexture->source;
       decoded.map = material.baseTexture->map;
-      decoded.map.image = library_.AddMemory(
+      decoded.map.image = library.AddMemory(
           source.name, reinterpret_cast<const unsigned char*>(source.bytes.data()),
           source.bytes.size(), source.decoding);
       decoded.factor = material.baseTexture->factor;
     }
     byMaterial_.push_back(decoded);
   }
+  library_ = std::make_shared<const TextureLibrary>(std::move(library));
+}
+
+BaseTextures BaseTextures::On(const TriangleMesh& mesh) const {
+  BaseTextures textures = *this;
+  textures.mesh_ = &mesh;
+  return textures;
 }
 
 bool BaseTextures::IsTextured(int64_t face) const {
-  const TriangleMesh& mesh = scene_.mesh;
+  const TriangleMesh& mesh = *mesh_;
   return byMaterial_[size_t(mesh.materialId[size_t(face)])].map && !mesh.Emits(face, kFront) &&
          !mesh.Emits(face, kBack);
 }
@@ -46,7 +54,7 @@ bool BaseTextures::IsTextured(int64_t face) const {
 Spectrum BaseTextures::Reflectance(int64_t face, const std::array<double, 3>& weights,
                                    double width) const {
   // Where the place lies in the image, and how wide it is there.
-  const TriangleMesh& mesh = scene_.mesh;
+  const TriangleMesh& mesh = *mesh_;
   const Decoded& texture = byMaterial_[size_t(mesh.materialId[size_t(face)])];
   std::array<Vec2f, 3> uvs;
   Vec2d uv;
@@ -58,12 +66,12 @@ Spectrum BaseTextures::Reflectance(int64_t face, const std::array<double, 3>& we
   const double imageArea = 0.5 * TwiceArea(uvs) * std::abs(m[0] * m[4] - m[1] * m[3]);
   const double area = double(mesh.Area(face));
   const double inImage = area > 0 ? width * std::sqrt(imageArea / area) : 0;
-  return Clamped(texture.factor * library_.Lookup(texture.map, Vec2f(uv), inImage).colour);
+  return Clamped(texture.factor * library_->Lookup(texture.map, Vec2f(uv), inImage).colour);
 }
 
 Spectrum BaseTextures::MeanReflectance(int32_t material) const {
   const Decoded& texture = byMaterial_[size_t(material)];
-  return Clamped(texture.factor * library_.ImageMean(texture.map).colour);
+  return Clamped(texture.factor * library_->ImageMean(texture.map).colour);
 }
 
 }  // namespace lambert

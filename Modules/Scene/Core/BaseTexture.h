@@ -24,6 +24,8 @@ class BaseTextures {
  public:
   /// `scene` outlives it.
   explicit BaseTextures(const Scene& scene);
+  /// The same images on the faces of another mesh of the same materials, which outlives them.
+  BaseTextures On(const TriangleMesh& mesh) const;
 
   /// Whether the face shows a texture; one that emits shows its light.
   bool IsTextured(int64_t face) const;
@@ -39,8 +41,8 @@ class BaseTextures {
     Spectrum factor;
   };
 
-  const Scene& scene_;
-  TextureLibrary library_;
+  const TriangleMesh* mesh_;
+  std::shared_ptr<const TextureLibrary> library_;
   std::vector<Decoded> byMaterial_;
 };
 
