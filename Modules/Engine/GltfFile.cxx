@@ -108,9 +108,6 @@ int GltfDocument::AddMaterial(const LitMesh& mesh) {
   if (mesh.image >= 0) {
     surface["baseColorTexture"] = {{"index", mesh.image}};
   }
-  if (mesh.factor != Spectrum(1.f)) {
-    surface["baseColorFactor"] = {mesh.factor.r, mesh.factor.g, mesh.factor.b, 1};
-  }
   Json material = {{"name", mesh.name},
                    {"pbrMetallicRoughness", surface},
                    {"extensions", {{"KHR_materials_unlit", Json::object()}}}};

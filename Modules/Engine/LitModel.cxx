@@ -97,7 +97,7 @@ class PointLitMeshes {
     this->model_.meshes.push_back(std::move(lit));
   }
 
-  /// Colours by which the mean of the texture becomes what the display shows of the mean.
+  /// Colours by which the mean of the image becomes what the display shows of the texture's mean.
   void AddTextured(int32_t material, const std::vector<int64_t>& triangles) {
     const Material& surface = this->scene_.materials[static_cast<size_t>(material)];
     const BaseTexture& texture = *surface.baseTexture;
@@ -106,9 +106,6 @@ class PointLitMeshes {
     lit.name = surface.name;
     lit.image = this->ImageOf(texture);
     lit.alphaCutoff = texture.source->decoding.alphaCutoff;
-    for (int band = 0; band < 3; ++band) {
-      lit.factor[band] = std::clamp(texture.factor[band], 0.f, 1.f);
-    }
     const Spectrum mean = this->textures_->MeanReflectance(material);
     for (const int64_t point : points) {
       const size_t p = static_cast<size_t>(point);
@@ -117,7 +114,7 @@ class PointLitMeshes {
       Spectrum light;
       bool isClipped = false;
       for (int band = 0; band < 3; ++band) {
-        light[band] = mean[band] > 0 ? shown[band] / mean[band] : 0;
+        light[band] = mean[band] > 0 ? texture.factor[band] * shown[band] / mean[band] : 0;
         isClipped |= light[band] > 1;
         light[band] = std::min(1.f, light[band]);
       }

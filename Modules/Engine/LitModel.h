@@ -35,7 +35,6 @@ struct LitMesh {
   std::vector<Spectrum> colors;                   ///< one a point, or none: linear, [0, 1]
   std::vector<std::array<int32_t, 3>> triangles;  ///< counter-clockwise from the front
   int image = -1;                                 ///< row of LitModel::images; -1: none
-  Spectrum factor{1.f};    ///< that the image is multiplied by, linear, [0, 1]
   float alphaCutoff = -1;  ///< texels of less alpha are holes; below 0: there are none
 };
 

@@ -94,7 +94,7 @@ class GltfModel:
         if "TEXCOORD_0" in attributes:
             data, sampler = self.image(material)
             color *= lookup(data, uv, sampler["wrapS"] == REPEAT)
-        return color * material["pbrMetallicRoughness"].get("baseColorFactor", [1])[:3]
+        return color
 
     def primitives(self):
         """By mesh: its attributes as arrays, its triangles, its material."""
