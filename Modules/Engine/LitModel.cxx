@@ -155,6 +155,14 @@ class PointLitMeshes {
   std::map<std::tuple<const TextureSource*, TextureWrap, TextureWrap>, int> images_;
 };
 
+/// What a viewer shows that multiplies an image by light: sRGB, [0, 1].
+Spectrum WithContrast(Spectrum display, const Spectrum& contrast) {
+  for (int band = 0; band < 3; ++band) {
+    display[band] = SrgbFromLinear(std::min(1.f, LinearFromSrgb(display[band]) * contrast[band]));
+  }
+  return display;
+}
+
 /// A page as an image; clipped texels count where a chart lies.
 LitImage ImageOfPage(const RadiosityPage& page, const ToneMapping& toneMapping, int64_t* clipped) {
   LitImage image;
@@ -163,7 +171,10 @@ LitImage ImageOfPage(const RadiosityPage& page, const ToneMapping& toneMapping, 
   const size_t side = static_cast<size_t>(page.size);
   for (size_t row = side; row-- > 0;) {
     for (size_t texel = row * side; texel < (row + 1) * side; ++texel) {
-      const Spectrum display = toneMapping.Apply(page.texels[texel]);
+      Spectrum display = toneMapping.Apply(page.texels[texel]);
+      if (!page.contrast.empty()) {
+        display = WithContrast(display, page.contrast[texel]);
+      }
       *clipped += page.isInChart[texel] && IsClipped(display);
       for (const uint8_t code : ToneMapping::Codes(display)) {
         image.codes.push_back(code);
@@ -178,9 +189,10 @@ struct MappedFaces {
   const TriangleMesh& mesh;  ///< in the order of the atlas
   const RadiosityAtlas& atlas;
   const LightMap& map;
-  std::vector<uint8_t> sides;      ///< by surface: that shows
-  std::vector<int64_t> inputFace;  ///< by face: of the scene
-  std::vector<uint8_t> inputSide;  ///< by face: the side of that face which shows
+  std::vector<uint8_t> sides;          ///< by surface: that shows
+  std::vector<int64_t> inputFace;      ///< by face: of the scene
+  std::vector<uint8_t> inputSide;      ///< by face: the side of that face which shows
+  std::vector<int64_t> facesAtPoints;  ///< of the scene, whose surfaces are lit at their points
 };
 
 /// Faces whose light the map holds, but for those that `keeps` its textures: by face, whether the
@@ -241,15 +253,17 @@ LitModel MakeMappedModel(const Scene& scene, const RadiositySolution& solution,
   const BaseTextures textures(scene);
   const ToneMapping toneMapping = AdaptTo(solution, options.tone);
   const BaseTextures texturesOfMap = textures.On(mapped.mesh);
-  const std::vector<RadiosityPage> pages =
-      MakeRadiosityMap(mapped.mesh, mapped.atlas, mapped.map, mapped.sides,
-                       options.keepTextures ? nullptr : &texturesOfMap, options.bakedSize);
+  const auto isTextured = [&](int64_t face) { return textures.IsTextured(face); };
+  const bool isTextureApart =
+      options.texturesAtPoints &&
+      std::any_of(mapped.facesAtPoints.begin(), mapped.facesAtPoints.end(), isTextured);
+  const std::vector<RadiosityPage> pages = MakeRadiosityMap(
+      mapped.mesh, mapped.atlas, mapped.map, mapped.sides,
+      options.keepTextures ? nullptr : &texturesOfMap, options.bakedSize, isTextureApart);
 
   // Its faces.
   std::vector<int64_t> others;
-  const auto keepsTexture = [&](int64_t face) {
-    return options.keepTextures && textures.IsTextured(face);
-  };
+  const auto keepsTexture = [&](int64_t face) { return options.keepTextures && isTextured(face); };
   const std::vector<bool> isLit = LitFaces(scene.mesh, mapped, solution, keepsTexture, &others);
   TriangleMesh split = mapped.mesh;
   const std::vector<Vec2f> textureCoords = SplitAtCharts(mapped.atlas, &split);
@@ -296,7 +310,8 @@ LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
 LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
                       const RadiosityAtlas& atlas, const LightMap& map,
                       const LitModelOptions& options) {
-  MappedFaces mapped{scene.mesh, atlas, map, BrighterSidesOfSurfaces(scene.mesh, solution), {}, {}};
+  MappedFaces mapped{scene.mesh, atlas, map, BrighterSidesOfSurfaces(scene.mesh, solution),
+                     {},         {},    {}};
   mapped.inputFace.resize(scene.mesh.triangles.size());
   std::iota(mapped.inputFace.begin(), mapped.inputFace.end(), int64_t(0));
   for (const int32_t surface : scene.mesh.surfaceId) {
@@ -308,9 +323,13 @@ LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
 LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
                       const RepresentedScene& represented, const LitModelOptions& options) {
   const SurfaceSubset& subset = represented.mapped;
-  const MappedFaces mapped{subset.mesh,      represented.atlas,
-                           represented.map,  BrighterSidesOfSurfaces(subset.mesh, subset.solution),
-                           subset.inputFace, SidesOfMappedFaces(represented)};
+  const MappedFaces mapped{subset.mesh,
+                           represented.atlas,
+                           represented.map,
+                           BrighterSidesOfSurfaces(subset.mesh, subset.solution),
+                           subset.inputFace,
+                           SidesOfMappedFaces(represented),
+                           represented.points.inputFaceId};
   return MakeMappedModel(scene, solution, mapped, options);
 }
 }  // namespace lambert

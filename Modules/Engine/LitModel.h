@@ -72,8 +72,9 @@ LAMBERTENGINE_EXPORT LitModel MakeLitModel(const Scene& scene, const RadiositySo
                                            const LitModelOptions& options = {});
 
 /// Every surface in its representation: what the light map takes as its pages show it, all other
-/// lit sides by their points, both in the one tone of the whole solution. `represented` is of
-/// `scene`; `solution` may have been simplified since. Throws as above.
+/// lit sides by their points, both in the one tone of the whole solution. Where textured surfaces
+/// are lit at their points, textures on the pages are tone mapped by their means, too.
+/// `represented` is of `scene`; `solution` may have been simplified since. Throws as above.
 LAMBERTENGINE_EXPORT LitModel MakeLitModel(const Scene& scene, const RadiositySolution& solution,
                                            const RepresentedScene& represented,
                                            const LitModelOptions& options = {});

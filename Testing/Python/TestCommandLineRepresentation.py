@@ -1,20 +1,25 @@
 """`lambert solve -o OUT.{glb,obj,html} --represent ... --introduced N`: surfaces lit at their points beside others in the light map."""
 import numpy as np
 from Browser import Browser
-from CommandLine import DATA, solve, temporary
+from CommandLine import DATA, solve, temporary, write_png
 from GltfModel import GltfModel, encoded, insist_on_valid
 
 import lambert
 
 # A floor of 2 m in two halves that meet at x = 1, of two materials that are alike, the right one wound downwards; a wall; a lamp.
-scene = temporary("halves.obj")
-with open(temporary("halves.mtl"), "w") as file:
-    file.write("newmtl left\nKd .7 .6 .5\nnewmtl right\nKd .7 .6 .5\nnewmtl wall\nKd .6 .6 .6\nnewmtl lamp\nKd 0 0 0\nKe 30 30 30\n")
-with open(scene, "w") as file:
-    file.write("mtllib halves.mtl\nv 0 0 0\nv 0 0 2\nv 1 0 2\nv 1 0 0\nv 2 0 2\nv 2 0 0\nv 0 2 0\nv 2 2 0\n"
-               "v .7 1.9 .7\nv 1.3 1.9 .7\nv 1.3 1.9 1.3\nv .7 1.9 1.3\n"
-               "usemtl left\nf 1 2 3 4\nusemtl right\nf 6 5 3 4\nusemtl wall\nf 1 6 8 7\nusemtl lamp\nf 9 10 11 12\n")
-halves = scene, "--error", "0.03", "--no-orient", "--camera", "1,1.6,3.6,1,0.3,0.5,40"
+def scene_of(name, floor):
+    """Both of its halves are of `floor`, lines of MTL."""
+    with open(temporary(name + ".mtl"), "w") as file:
+        file.write(f"newmtl left\n{floor}newmtl right\n{floor}newmtl wall\nKd .6 .6 .6\nnewmtl lamp\nKd 0 0 0\nKe 30 30 30\n")
+    scene = temporary(name + ".obj")
+    with open(scene, "w") as file:
+        file.write(f"mtllib {name}.mtl\nv 0 0 0\nv 0 0 2\nv 1 0 2\nv 1 0 0\nv 2 0 2\nv 2 0 0\nv 0 2 0\nv 2 2 0\n"
+                   "v .7 1.9 .7\nv 1.3 1.9 .7\nv 1.3 1.9 1.3\nv .7 1.9 1.3\nvt .25 0\nvt .25 2\nvt 1.25 2\nvt 1.25 0\nvt 2.25 2\nvt 2.25 0\n"
+                   "usemtl left\nf 1/1 2/2 3/3 4/4\nusemtl right\nf 6/6 5/5 3/3 4/4\nusemtl wall\nf 1 6 8 7\nusemtl lamp\nf 9 10 11 12\n")
+    return scene, "--error", "0.03", "--no-orient", "--camera", "1,1.6,3.6,1,0.3,0.5,40"
+
+
+halves = scene_of("halves", "Kd .7 .6 .5\n")
 light_map = "--lightmap", temporary("map.vtp"), "--page-size", "256"
 chosen = *light_map, "--represent", "left:points"
 written = []
@@ -94,6 +99,22 @@ floor = np.unique(at[(at[:, 1] == 0) & (np.abs(at[:, 0] - 2.5) > 0.1) & (at > (0
 floor = floor[~np.isnan(cut.shown(page_of_cut, floor)[:, 0])]
 step = steps(cut, page_of_cut, uncut, floor)
 assert len(floor) > 30 and np.sqrt((step ** 2).mean()) < 0.6 and np.abs(step).max() < 2.5, (len(floor), np.abs(step).max())
+
+# Under a texture, checks of half a metre: image and light at the points, both in one on the page. A curve that bends in
+# what is shown bends both alike; toned by the texel the page would be 4 codes off.
+is_dark = np.add.outer(np.arange(64) // 32, np.arange(64) // 32) % 2
+checks = write_png(temporary("checks.png"), np.where(is_dark, 90, 230)[..., None].repeat(3, 2))
+checked = *scene_of("checked", "Kd .7 .6 .5\nmap_Kd checks.png\n"), "--white", "10", "--exposure", "-1"
+textured, report = model_of("checked.glb", *checked, *chosen)
+(page_of_checks,), (left_checks,) = by_kind(textured)
+assert left_checks[2]["name"] == "left" and textured.image(left_checks[2])[0] == open(checks, "rb").read()
+assert report["lit_model"]["baked_texels"] > 0 and report["lit_model"]["clipped_points"] == 0
+within = border[np.abs(border[:, 2] % 0.5 - 0.25) < 0.2]  # Edges of checks are as soft as a texel.
+across = steps(textured, page_of_checks, left_checks, within)
+assert np.ptp(encoded(textured.shown(left_checks, within))) > 50
+assert np.abs(across).max() < 1.5, np.abs(across).max()
+kept, _ = model_of("kept.glb", *checked, *chosen, "--keep-textures")
+assert len(by_kind(kept)[1]) == 2 and {p[2]["name"] for p in by_kind(kept)[1]} == {"left", "right"}
 
 insist_on_valid(*written)
 

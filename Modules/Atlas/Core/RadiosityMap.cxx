@@ -77,6 +77,15 @@ std::vector<bool> TexturedPages(const RadiosityAtlas& atlas, const BaseTextures*
   return isTextured;
 }
 
+/// 0 in bands of nothing.
+Spectrum Ratio(const Spectrum& part, const Spectrum& whole) {
+  Spectrum ratio;
+  for (int band = 0; band < 3; ++band) {
+    ratio[band] = whole[band] > 0 ? part[band] / whole[band] : 0;
+  }
+  return ratio;
+}
+
 /// Reflectance at a place of an atlas, by the texture where the face has one.
 Spectrum ReflectanceAt(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
                        const BaseTextures* textures, int64_t face, const Vec2d& place) {
@@ -90,7 +99,8 @@ Spectrum ReflectanceAt(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
 
 std::vector<RadiosityPage> MakeRadiosityMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
                                             const LightMap& map, const std::vector<uint8_t>& sides,
-                                            const BaseTextures* textures, int texturedSize) {
+                                            const BaseTextures* textures, int texturedSize,
+                                            bool isTextureApart) {
   // The four belong together.
   if (atlas.textureCoords.size() != mesh.triangles.size() || map.pageSize != atlas.pageSize ||
       map.pages.size() != size_t(atlas.pages)) {
@@ -116,6 +126,8 @@ std::vector<RadiosityPage> MakeRadiosityMap(const TriangleMesh& mesh, const Radi
 
     // What leaves it, row by row.
     page.texels.resize(faces.size());
+    const bool hasContrast = page.isTextured && isTextureApart;
+    if (hasContrast) page.contrast.assign(faces.size(), Spectrum(1.f));
     ParallelForEach(page.size, 16, [&](int64_t y) {
       for (int x = 0; x < page.size; ++x) {
         const size_t texel = size_t(y) * size_t(page.size) + size_t(x);
@@ -125,7 +137,13 @@ std::vector<RadiosityPage> MakeRadiosityMap(const TriangleMesh& mesh, const Radi
         const int32_t face = faces[texel];
         if (face < 0) continue;
         const auto side = static_cast<Side>(sides.at(size_t(mesh.surfaceId[size_t(face)])));
-        radiosity = radiosity * ReflectanceAt(mesh, drawn, textures, face, place);
+        Spectrum reflectance = ReflectanceAt(mesh, drawn, textures, face, place);
+        if (hasContrast && textures->IsTextured(face)) {
+          const Spectrum mean = textures->MeanReflectance(mesh.materialId[size_t(face)]);
+          page.contrast[texel] = Ratio(reflectance, mean);
+          reflectance = mean;
+        }
+        radiosity = radiosity * reflectance;
         if (mesh.Emits(face, side)) radiosity += mesh.emittance[size_t(face)];
       }
     });

@@ -112,6 +112,17 @@ TEST(RadiosityMap, TexturesAreBakedAtTheirOwnSize) {
   EXPECT_NEAR(double(lamp), 0.5 * double(covered), 0.02 * double(covered));
   EXPECT_GT(white, 0);
   EXPECT_GT(black, 0);
+
+  // Apart from the light, their product is the same.
+  EXPECT_TRUE(pages[0].contrast.empty());
+  const auto apart = MakeRadiosityMap(mesh, floors.atlas, floors.map,
+                                      std::vector<uint8_t>(2, kFront), &textures, 300, true);
+  ASSERT_EQ(apart[0].contrast.size(), apart[0].texels.size());
+  for (size_t texel = 0; texel < apart[0].texels.size(); ++texel) {
+    const float light = apart[0].texels[texel].r;
+    EXPECT_TRUE(light == 5 || std::abs(light - 0.5f) < 1e-5f) << light;  // 2 on a mean of 0.25
+    EXPECT_NEAR(light * apart[0].contrast[texel].r, pages[0].texels[texel].r, 1e-5f);
+  }
 }
 
 TEST(RadiosityMap, TheMapOfAnotherAtlasIsRefused) {
