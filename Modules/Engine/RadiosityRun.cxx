@@ -283,6 +283,7 @@ void RadiosityRun::Simplify(const LitMeshSimplificationOptions& options,
   Timer timer;
   LitMeshSimplificationStatistics statistics;
   this->solution_ = SimplifyLitMesh(this->solution_, options, &statistics, progress);
+  this->solutionAsShown_.reset();
   this->simplification_ = statistics;
   this->refinedError_ = std::exchange(this->error_, std::nullopt);
   this->AddStage("simplify", timer.Seconds());
