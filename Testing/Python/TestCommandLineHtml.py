@@ -32,7 +32,22 @@ writer.SetViewAngle(ANGLE)
 writer.Write()
 ours = picture(writer.GetFileName())
 
+# A sheet a millimetre over a floor of 6 m that is drawn after it, under a lamp; beneath it the floor is dark.
+stack, on_stack = temporary("stack.obj"), temporary("stack.html")
+with open(temporary("stack.mtl"), "w") as file:
+    file.write("newmtl floor\nKd .5 .5 .5\nnewmtl sheet\nKd .8 .8 .8\nnewmtl lamp\nKd 0 0 0\nKe 50 50 50\n")
+with open(stack, "w") as file:
+    file.write("mtllib stack.mtl\nv 2 .001 2\nv 2 .001 4\nv 4 .001 4\nv 4 .001 2\nusemtl sheet\nf 1 2 3 4\n"
+               "v 0 0 0\nv 0 0 6\nv 6 0 6\nv 6 0 0\nusemtl floor\nf 5 6 7 8\n"
+               "v 2.5 3 2.5\nv 3.5 3 2.5\nv 3.5 3 3.5\nv 2.5 3 3.5\nusemtl lamp\nf 9 10 11 12\n")
+solve(stack, "-o", on_stack, "--error", "0.1", "--camera", "3,2.5,9,3,0,3,30")
+
 with Browser(*SIZE) as browser:
+    # What lies on the floor hides it wherever they are drawn from far away.
+    browser.show(on_stack, "#bare")
+    sheet = browser.shoot(temporary("stack.png"))[160:200, 200:280].mean(axis=2)
+    assert sheet.min() > 0.8 * np.median(sheet) > 40, (sheet.min(), np.median(sheet))
+
     # The browser blends colours in linear light and we their codes: a code apart where light is steep. Both have
     # samples of their own at edges, a pixel in fifty. A texel of the map is 1.6 mm, a pixel to two, and soft where
     # shadows are sharp. In another exposure, without the encoding, or seen from elsewhere it is 20 codes and more.

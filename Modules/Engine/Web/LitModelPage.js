@@ -35,7 +35,8 @@ class Page {
     this.world.add(gltf.scene);
     this.box = new THREE.Box3().setFromObject(gltf.scene);
     this.diagonal = this.box.isEmpty() ? 1 : this.box.getSize(new THREE.Vector3()).length();
-    this.renderer = new THREE.WebGLRenderer({canvas: element('view'), antialias: true});
+    // Between the ends of the range 24 bits of depth would mix what lies a millimetre apart.
+    this.renderer = new THREE.WebGLRenderer({canvas: element('view'), antialias: true, logarithmicDepthBuffer: true});
     for (const mesh of gltf.scene.getObjectsByProperty('isMesh', true)) {
       if (mesh.material.map) mesh.material.map.anisotropy = this.renderer.capabilities.getMaxAnisotropy();
     }
