@@ -109,25 +109,26 @@ clustering.Update()
 lowest, highest = (reach(faces_of(clustering.GetOutput(0))[0], axis=1)[face] for reach in (np.min, np.max))
 assert ((corners_of_mixed.min(axis=1) > lowest - 1e-4) & (corners_of_mixed.max(axis=1) < highest + 1e-4)).all()
 
-# In glTF: both sides are in the page's mesh, and nothing of the wall beside it.
-solve(*common, "-o", glb)
-model = GltfModel(glb)
-(attributes, drawn, _), *others = model.primitives()
-corners = attributes["POSITION"][drawn]
-on_wall = (np.abs(corners[:, :, 0] - WALL) < 1e-5).all(axis=1)
-assert towards_dim(corners[on_wall]).mean() == 0.5
-for other, triangles, _ in others:
-    assert not (np.abs(other["POSITION"][triangles][:, :, 0] - WALL) < 1e-5).all(axis=1).any()
-assert model.document["samplers"][0] == {"magFilter": 9729, "minFilter": 9987, "wrapS": 33071, "wrapT": 33071}  # Trilinear
-png = temporary("rooms.png")
-with open(png, "wb") as file:
-    file.write(model.view(model.document["images"][0]["bufferView"]))
-codes = texels_of(image_of(vtkPNGReader(), png)) / 255
-linear = np.where(codes <= 0.04045, codes / 12.92, ((codes + 0.055) / 1.055) ** 2.4)
-at = attributes["TEXCOORD_0"][drawn][on_wall].mean(axis=1) * (1, -1) + (0, 1)
-column, row = (at * SIZE).astype(int).T
-light = mean_on(corners[on_wall], linear[row, column])
-assert abs(light[1].mean() / light[0].mean() / ratio - 1) < 0.05, (light, ratio)
+# In glTF, mixed and all under the map: both sides are in the page's mesh, and nothing of the wall beside it.
+for options in (("--represent", PARTITION + ":lightmap", "--introduced", "1000000"), ()):
+    solve(*common, "-o", glb, *options)
+    model = GltfModel(glb)
+    (attributes, drawn, _), *others = model.primitives()
+    corners = attributes["POSITION"][drawn]
+    on_wall = (np.abs(corners[:, :, 0] - WALL) < 1e-5).all(axis=1)
+    assert towards_dim(corners[on_wall]).mean() == 0.5
+    for other, triangles, _ in others:
+        assert not (np.abs(other["POSITION"][triangles][:, :, 0] - WALL) < 1e-5).all(axis=1).any()
+    assert model.document["samplers"][0] == {"magFilter": 9729, "minFilter": 9987, "wrapS": 33071, "wrapT": 33071}  # Trilinear
+    png = temporary("rooms.png")
+    with open(png, "wb") as file:
+        file.write(model.view(model.document["images"][0]["bufferView"]))
+    codes = texels_of(image_of(vtkPNGReader(), png)) / 255
+    linear = np.where(codes <= 0.04045, codes / 12.92, ((codes + 0.055) / 1.055) ** 2.4)
+    at = attributes["TEXCOORD_0"][drawn][on_wall].mean(axis=1) * (1, -1) + (0, 1)
+    column, row = (at * SIZE).astype(int).T
+    light = mean_on(corners[on_wall], linear[row, column])
+    assert abs(light[1].mean() / light[0].mean() / ratio - 1) < 0.05, (light, ratio)
 
 # In OBJ: the same faces.
 solve(*common, "-o", obj)
