@@ -207,6 +207,22 @@ void SolveArguments::RequireOptionsOfOutputs() const {
   // Of pictures.
   refuse(dodgingAndBurning && (image.empty() || !falseColors.empty()), "--tone",
          "local is for a picture alone; give --image, without --false-colors");
+  refuse(command_->count("--size") > 0 && image.empty(), "--size",
+         "is for --image; no other output has pixels");
+  const bool isSeen = !image.empty() || (isModel && !isObj);
+  refuse(!camera.empty() && !isSeen, "--camera",
+         "is for --image, glTF and HTML; no other output is seen from one place");
+
+  // Of colours.
+  const bool isPicture = !image.empty() && falseColors.empty();
+  const bool arePagesPng =
+      !lightMap.empty() && std::count(pageFormats.begin(), pageFormats.end(), PageFormat::Png) > 0;
+  const bool isToned = isPicture || isModel || FileEnding(output) == ".ply" || arePagesPng;
+  for (const char* option : {"--tone", "--key", "--exposure", "--ev", "--white"}) {
+    refuse(command_->count(option) > 0 && !isToned, option,
+           "is for --image without --false-colors, PLY, glTF, HTML, OBJ and --page-format png; no "
+           "other output has colours in a tone");
+  }
 }
 
 void SolveArguments::RequireOptionsOfMethod() const {

@@ -19,8 +19,8 @@ fails(2, "solve", CORNELL_BOX, "-o", out, "--time", "-1")
 fails(2, "solve", CORNELL_BOX, "-o", out, "--iterations", "0")
 fails(2, "solve", CORNELL_BOX, "-o", out, "--unit", "parsec")
 fails(2, "solve", CORNELL_BOX, "-o", out, "--sky", "1", "1", "-1")
-fails(2, "solve", CORNELL_BOX, "-o", out, "--size", "100", says=["--size"])
-fails(2, "solve", CORNELL_BOX, "-o", out, "--camera", "1,2,3", says=["--camera"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--image", "never.png", "--size", "100", says=["--size"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--image", "never.png", "--camera", "1,2,3", says=["--camera"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--probe", "points.csv", says=["--probe-output"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--verify-output", "points.csv", says=["--verify"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--no-such-option")
@@ -30,7 +30,7 @@ for option in ("--error", "--time", "--feature-angle", "--exposure", "--ev", "--
         fails(2, "solve", CORNELL_BOX, "-o", out, option, number, says=[option, number])
 for option in ("--sky", "--reflectance"):
     fails(2, "solve", CORNELL_BOX, "-o", out, option, "nan", "1", "1", says=[option, "nan"])
-fails(2, "solve", CORNELL_BOX, "-o", out, "--size", "10.5x20", says=["--size"])
+fails(2, "solve", CORNELL_BOX, "-o", out, "--image", "never.png", "--size", "10.5x20", says=["--size"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--image", "picture.jpg", says=[".png"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--tone", "cubist", says=["--tone"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--lightmap", temporary("map.vtp"), "--texel-density", "fine",
@@ -55,9 +55,24 @@ for name, options, says in ((out, ["--lightmap", temporary("map.vtp"), "--keep-t
                             (temporary("never.ply"), ["--tone", "local"], ["--tone", "local", "--image"]),
                             (out, ["--image", picture, "--false-colors", "lux", "--tone", "local"],
                              ["--tone", "--false-colors"]),
+                            (out, ["--size", "64x48"], ["--size", "--image"]),
+                            (out, ["--camera", "0,1,3,0,1,0"], ["--camera", "--image", "glTF"]),
+                            (temporary("never.obj"), ["--camera", "0,1,3,0,1,0"], ["--camera", "--image"]),
                             (temporary("never.glb"), ["--both-sides"], ["--both-sides", "PLY"])):
     fails(2, "solve", CORNELL_BOX, "-o", name, *options, says=says)
     assert not os.path.exists(name)
+map_of_pages = "--lightmap", temporary("map.vtp"), "--page-size", "64", "--page-format"
+for option, value in (("--tone", "linear"), ("--tone", "photographic"), ("--key", "0.2"), ("--exposure", "1"), ("--ev", "3"),
+                      ("--white", "2")):
+    for others in ([], [*map_of_pages, "exr"], ["--image", picture, "--false-colors", "lux"]):
+        fails(2, "solve", CORNELL_BOX, "-o", out, *others, option, value, says=[option, "PLY", "--page-format png"])
+
+# It is where one of several outputs has: nothing but the scene is wrong then.
+for name, options in ((out, ["--exposure", "1", *map_of_pages, "exr", "--page-format", "png"]),
+                      (temporary("never.ply"), ["--exposure", "1", *map_of_pages, "hdr"]),
+                      (temporary("never.glb"), ["--tone", "filmic", "--image", picture, "--false-colors", "lux"]),
+                      (temporary("never.obj"), ["--key", "0.2"]), (temporary("never.html"), ["--camera", "0,1,3,0,1,0"])):
+    fails(1, "solve", "missing.obj", "-o", name, *options, says=["missing.obj"])
 
 # No output may write over what is read or over another output.
 scene = temporary("scene.ply")

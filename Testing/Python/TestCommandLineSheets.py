@@ -13,7 +13,8 @@ import lambert
 SIZE, WALL, PARTITION = 512, 2.5, "Partition"
 ROOMS = f"{DATA}/TwoRooms/TwoRooms.obj"
 mapped, solved, glb, obj = (temporary(n) for n in ("map.vtp", "solved.vtp", "rooms.glb", "rooms.obj"))
-common = ROOMS, "--error", "0.1", "--lightmap", mapped, "--page-size", SIZE, "--tone", "linear", "--exposure", "-2"
+common = ROOMS, "--error", "0.1", "--lightmap", mapped, "--page-size", SIZE
+toned = *common, "--tone", "linear", "--exposure", "-2"
 
 
 def faces_of(mesh):
@@ -111,7 +112,7 @@ assert ((corners_of_mixed.min(axis=1) > lowest - 1e-4) & (corners_of_mixed.max(a
 
 # In glTF, mixed and all under the map: both sides are in the page's mesh, and nothing of the wall beside it.
 for options in (("--represent", PARTITION + ":lightmap", "--introduced", "1000000"), ()):
-    solve(*common, "-o", glb, *options)
+    solve(*toned, "-o", glb, *options)
     model = GltfModel(glb)
     (attributes, drawn, _), *others = model.primitives()
     corners = attributes["POSITION"][drawn]
@@ -131,7 +132,7 @@ for options in (("--represent", PARTITION + ":lightmap", "--introduced", "100000
     assert abs(light[1].mean() / light[0].mean() / ratio - 1) < 0.05, (light, ratio)
 
 # In OBJ: the same faces.
-solve(*common, "-o", obj)
+solve(*toned, "-o", obj)
 points = np.array([[float(v) for v in line.split()[1:4]] for line in open(obj) if line.startswith("v ")])
 faces = np.array([[int(c.split("/")[0]) - 1 for c in line.split()[1:]] for line in open(obj) if line.startswith("f ")])
 on_wall = (np.abs(points[faces][:, :, 0] - WALL) < 1e-5).all(axis=1)
