@@ -1,8 +1,10 @@
-"""One triangle from its file to the lit mesh and back: by part and face number, and by its refined triangles."""
+"""One triangle from its file to the lit mesh, a texel and a pixel of the actor, and back: by part and face number."""
 import os
 
 import numpy as np
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  draws
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkRenderingCore import vtkCellPicker, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
 
 import lambert
 from CommandLine import temporary
@@ -17,7 +19,7 @@ objects = {
 }
 path = temporary("room.obj")
 with open(os.path.splitext(path)[0] + ".mtl", "w") as file:
-    file.write("newmtl Wall\nKd 0.5 0.6 0.7\nnewmtl Lamp\nKd 0 0 0\nKe 5 5 5\n")
+    file.write("newmtl Wall\nKd 0.5 0.6 0.7\nnewmtl Lamp\nKd 0 0 0\nKe 1 1 1\n")
 with open(path, "w") as file:
     file.write("mtllib room.mtl\n")
     count = 0
@@ -89,3 +91,69 @@ for source in (reader, clusters):
     # And its light is that of the lamp above it.
     points = vtk_to_numpy(refined.GetPolys().GetConnectivityArray()).reshape(-1, 3)[mine & (cells(refined, "Side") == 0)]
     assert vtk_to_numpy(refined.GetPointData().GetArray("Irradiance"))[points].min() > 0
+
+# Laid flat it still names its part and number. The texels of its page hold the light of its refined triangles.
+PAGE, PIXELS, WIDTH = 256, 161, 0.8
+atlas = lambert.vtkRadiosityAtlas()
+atlas.SetInputConnection(clusters.GetOutputPort(0))
+atlas.SetClusterConnection(clusters.GetOutputPort(1))
+atlas.SetSolutionConnection(radiosity.GetOutputPort(0))
+atlas.SetPageSize(PAGE)
+light_map = lambert.vtkRadiosityLightMap()
+light_map.SetInputConnection(atlas.GetOutputPort())
+light_map.SetSolutionConnection(radiosity.GetOutputPort(0))
+light_map.Update()
+laid, page = atlas.GetOutput(), light_map.GetOutput().GetBlock(0)
+texels = vtk_to_numpy(page.GetPointData().GetScalars()).reshape(PAGE, PAGE, 3)
+# The shelf is a sheet: of its two faces there, one a side, the upper one is followed.
+up = np.cross(corners(laid)[:, 1] - corners(laid)[:, 0], corners(laid)[:, 2] - corners(laid)[:, 0])[:, 1] > 0
+laid_face, = np.flatnonzero((cells(laid, "PartId") == part_row(laid, "shelf")) & (cells(laid, "SourceCellId") == 2) & up)
+at_corners = vtk_to_numpy(laid.GetPolys().GetConnectivityArray()).reshape(-1, 3)[laid_face]
+uv = vtk_to_numpy(laid.GetPointData().GetArray("LightMapTCoords"))[at_corners].astype(float)
+p = corners(laid)[laid_face]
+middles = corners(refined)[mine & (cells(refined, "Side") == 0)].mean(axis=1)
+light = vtk_to_numpy(refined.GetPointData().GetArray("Irradiance"))[points].astype(float).mean(axis=1)
+across = np.linalg.lstsq(np.stack([p[1] - p[0], p[2] - p[0]], axis=1), (middles - p[0]).T, rcond=None)[0].T
+column, row = ((uv[0] + across @ (uv[1:] - uv[0])) * PAGE).astype(int).T
+in_texels = texels[row, column].astype(float)
+# The middle of a texel is half of one, some 4 mm, from that of a triangle; the lamp is 0.65 m away.
+assert np.abs(in_texels / light - 1).max() < 0.05, np.abs(in_texels / light - 1).max()
+assert light.max() / light.min() > 1.1  # Texels elsewhere on it have other light.
+
+# Seen from above, under the lamp, its pixels show that light times its reflectance.
+if lambert.vtkRadiosityImageWriter.IsDisplayAvailable():
+    actor, renderer, window, grab = lambert.vtkRadiosityActor(), vtkRenderer(), vtkRenderWindow(), vtkWindowToImageFilter()
+    actor.SetInputData(laid)
+    actor.AddLightMapPage(page)
+    actor.LinearLightOn()
+    renderer.AddActor(actor)
+    camera = renderer.GetActiveCamera()
+    camera.ParallelProjectionOn()
+    camera.SetParallelScale(WIDTH / 2)
+    camera.SetFocalPoint(0.5, 0, 0.5)
+    camera.SetPosition(0.5, 0.6, 0.5)
+    camera.SetViewUp(0, 0, -1)
+    camera.SetClippingRange(0.01, 1)
+    window.SetOffScreenRendering(True)
+    window.SetMultiSamples(0)
+    window.SetSize(PIXELS, PIXELS)
+    window.AddRenderer(renderer)
+    window.Render()
+    grab.SetInput(window)
+    grab.ReadFrontBufferOff()
+    grab.Update()
+    shown = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()).reshape(PIXELS, PIXELS, 3) / 255.
+    # Middles of refined triangles at least a pixel and a texel within the face; what lies over it is nothing.
+    x, y = (((middles[:, [0, 2]] - 0.5) * (1, -1) / WIDTH + 0.5) * PIXELS).astype(int).T
+    radiosity_there = light * (0.5, 0.6, 0.7)
+    assert 0.05 < radiosity_there.min() and radiosity_there.max() < 0.95, radiosity_there  # The frame buffer holds [0, 1].
+    # Half a code of 255 and what a texel may differ by.
+    assert (np.abs(shown[y, x] - radiosity_there) < 0.5 / 255 + 0.05 * radiosity_there).all()
+
+    # And a pixel leads back to the face in the file.
+    picker = vtkCellPicker()
+    picker.SetTolerance(0)
+    assert picker.Pick(int(x[0]), int(y[0]), 0, renderer)
+    picked = picker.GetCellId()
+    assert cells(laid, "SourceCellId")[picked] == 2 and cells(laid, "PartId")[picked] == part_row(laid, "shelf")
+    assert picker.GetActor() is actor and np.abs(np.array(picker.GetPickPosition()) - middles[0]).max() < WIDTH / PIXELS
