@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <tuple>
 #include <utility>
 
 #include "Atlas/Core/ChartJoining.h"
@@ -30,7 +32,10 @@ constexpr double kMostJoined = 1.25;
 /// Two charts are cut anew where they leave this part of their area empty at least, to this part of
 /// their rectangles at most.
 constexpr double kLeastEmpty = 0.1, kMostCutAnew = 0.99;
-/// They may have lengths then that are powers of this, times the root of all area.
+/// A chart is cut apart where both parts, padding and all, take this part of its room at most: more
+/// charts have more seams.
+constexpr double kMostCutApart = 0.9;
+/// Charts cut anew may have lengths that are powers of this, times the root of all area.
 constexpr double kLengthStep = 1.2;
 
 /// One face at a place of its own; that it has no area does no harm.
@@ -71,12 +76,12 @@ double LongestOf(const ChartOptions& options) {
   return options.longest > 0 ? options.longest : std::numeric_limits<double>::max();
 }
 
-/// m2, of the smallest rectangle.
-double RectangleAbout(const std::vector<Vec2d>& map) {
+/// Of the smallest rectangle.
+Room RoomOf(const std::vector<Vec2d>& map) {
   std::vector<Vec2f> points;
   for (const Vec2d& p : map) points.emplace_back(p);
-  const Vec2f half = MinimumAreaRectangle(points).halfExtent;
-  return 4 * double(half.x) * double(half.y);
+  const Vec2d half(MinimumAreaRectangle(points).halfExtent);
+  return {4 * half.x * half.y, 4 * (half.x + half.y)};
 }
 
 /// Of all triangles, each with its normal, m2.
@@ -108,11 +113,11 @@ struct Limits {
 struct Piece {
   Chart chart;  ///< without corners: they cannot be laid flat
   std::vector<int32_t> faces;
-  double rectangle = 0;  ///< m2, of the smallest about it
-  double area = 0;       ///< m2
-  double extent = 0;     ///< m, of the longer side of the upright one
+  Room rectangle;     ///< the smallest about it
+  double area = 0;    ///< m2
+  double extent = 0;  ///< m, of the longer side of the upright one
 
-  double Empty() const { return rectangle - area; }
+  double Empty() const { return rectangle.area - area; }
 };
 
 class Segmentation {
@@ -132,6 +137,7 @@ class Segmentation {
     };
     std::sort(pieces_.begin(), pieces_.end(), before);
     this->Join(progress);
+    this->CutApart(progress);
     this->Straighten(progress);
     std::sort(pieces_.begin(), pieces_.end(), before);
     for (Piece& piece : pieces_) {
@@ -193,6 +199,37 @@ class Segmentation {
     pieces_.erase(std::remove_if(pieces_.begin(), pieces_.end(), isJoined), pieces_.end());
   }
 
+  /// Charts fall in two along a line where that needs less room, as long as any does.
+  void CutApart(const ProgressCallback& progress) {
+    if (std::isinf(options_.margin)) {
+      set_.leastMargin = std::numeric_limits<double>::max();
+      return;
+    }
+    const double longest = this->LongestCutAnew();
+    std::vector<size_t> open(pieces_.size());
+    std::iota(open.begin(), open.end(), size_t(0));
+    while (!open.empty()) {
+      if (!Report(progress, 0.85, "cutting charts apart")) throw Cancelled();
+      std::vector<Piece> others(open.size());
+      std::vector<double> mostMargins(open.size(), -1);
+      ParallelForEach(int64_t(open.size()), 1, [&](int64_t i) {
+        others[size_t(i)] =
+            this->TryToCutApart(&pieces_[open[size_t(i)]], longest, &mostMargins[size_t(i)]);
+      });
+      std::vector<size_t> cut;
+      for (size_t i = 0; i < open.size(); ++i) {
+        const bool isCut = mostMargins[i] >= options_.margin;
+        double& end = isCut ? set_.mostMargin : set_.leastMargin;
+        end = isCut ? std::min(end, mostMargins[i]) : std::max(end, mostMargins[i]);
+        if (!isCut) continue;
+        cut.push_back(open[i]);
+        cut.push_back(pieces_.size());
+        pieces_.push_back(std::move(others[i]));
+      }
+      open = std::move(cut);
+    }
+  }
+
   /// Neighbours are cut anew where that leaves less empty.
   void Straighten(const ProgressCallback& progress) {
     StraightenedCharts charts;
@@ -222,15 +259,15 @@ class Segmentation {
   /// Both in `a`, if they can be laid flat together. Where they meet in several lines, as the
   /// halves of a tube, all but the longest stay cut.
   bool TryToJoin(Piece* a, Piece* b, Refusal* refusal) {
-    if (std::min(a->rectangle, b->rectangle) > kSmall * area_) return false;
+    if (std::min(a->rectangle.area, b->rectangle.area) > kSmall * area_) return false;
     if (a->faces.size() + b->faces.size() > kMostFaces) return false;
     const CommonLines lines = LinesBetween(mesh_, neighbours_, a->faces, b->faces);
-    const double mostRectangle = kMostJoined * (a->rectangle + b->rectangle);
+    const double mostRectangle = kMostJoined * (a->rectangle.area + b->rectangle.area);
     std::vector<Vec2d> places;
     for (const auto& corners : this->Lay(*a, *b, lines).places) {
       places.insert(places.end(), corners.begin(), corners.end());
     }
-    if (RectangleAbout(places) > kMostGuessed * mostRectangle) return false;
+    if (RoomOf(places).area > kMostGuessed * mostRectangle) return false;
     std::vector<int32_t> faces;
     std::merge(a->faces.begin(), a->faces.end(), b->faces.begin(), b->faces.end(),
                std::back_inserter(faces));
@@ -256,6 +293,34 @@ class Segmentation {
     return longest;
   }
 
+  /// The part beyond the best line, if both parts can be laid flat and need less room than the
+  /// chart; neither longer than that was, or than `longest`, m. `mostMargin`: the widest margin
+  /// with which that is so, m, where any is.
+  Piece TryToCutApart(Piece* piece, double longest, double* mostMargin) {
+    if (piece->faces.size() < 2 || piece->Empty() < kLeastEmpty * piece->area) return {};
+    SideBySide chart{piece->faces, {}};
+    for (const int32_t face : piece->faces) {
+      const auto& p = set_.places[size_t(face)];
+      chart.places.push_back({Vec2d(p[0]), Vec2d(p[1]), Vec2d(p[2])});
+    }
+    const double most = kMostCutApart * piece->rectangle.area;
+    auto sides = CutAnew(neighbours_, chart, most);
+    if (sides[0].empty()) return {};
+    const Places before = this->PlacesOf(piece->faces);
+    auto [first, second] =
+        this->TryToFlattenBoth(std::move(sides), {most, std::max(piece->extent, longest)});
+    if (!second.faces.empty()) {
+      *mostMargin =
+          MostMargin(piece->rectangle, {first.rectangle, second.rectangle}, kMostCutApart);
+    }
+    if (!(*mostMargin >= options_.margin)) {
+      this->PutBack(piece->faces, before);
+      return {};
+    }
+    *piece = std::move(first);
+    return std::move(second);
+  }
+
   /// Both along a straight line, if what that makes can be laid flat and leaves less empty; neither
   /// longer than both were, or than `longest`, m. Where they meet in several lines, all but the
   /// longest stay cut within either.
@@ -264,16 +329,14 @@ class Segmentation {
     if (a->Empty() + b->Empty() < kLeastEmpty * (a->area + b->area)) return false;
     const CommonLines lines = LinesBetween(mesh_, neighbours_, a->faces, b->faces);
     const SideBySide charts = this->Lay(*a, *b, lines);
-    const double most = kMostCutAnew * (a->rectangle + b->rectangle);
+    const double most = kMostCutAnew * (a->rectangle.area + b->rectangle.area);
     const std::vector<int32_t> beyond = this->Open(lines.others);
     auto sides = CutAnew(neighbours_, charts, most);
     Piece first, second;
     if (!sides[0].empty()) {
       const Places before = this->PlacesOf(charts.faces);
-      Limits limits = {most, std::max({a->extent, b->extent, longest})};
-      first = this->TryToFlatten(std::move(sides[0]), limits);
-      limits.rectangle -= first.rectangle;
-      if (!first.faces.empty()) second = this->TryToFlatten(std::move(sides[1]), limits);
+      std::tie(first, second) = this->TryToFlattenBoth(
+          std::move(sides), {most, std::max({a->extent, b->extent, longest})});
       if (second.faces.empty()) this->PutBack(charts.faces, before);
     }
     // What lies between them now is closed.
@@ -347,7 +410,7 @@ class Segmentation {
     Piece piece;
     if (faces.size() == 1) {
       const std::vector<Vec2d> map = MapOfFace(mesh);
-      piece.rectangle = RectangleAbout(map);
+      piece.rectangle = RoomOf(map);
       piece.area = AreaOf(mesh);
       piece.extent = RefusalOf(mesh, map).extent;
       piece.chart.cornerCount = 3;
@@ -363,8 +426,8 @@ class Segmentation {
     piece.area = AreaOf(mesh);
     std::vector<Vec2d> map = this->Map(mesh, piece.area, &piece.chart.isProjected, &stretch);
     if (map.empty()) return {};
-    piece.rectangle = RectangleAbout(map);
-    if (piece.rectangle > limits.rectangle) return {};
+    piece.rectangle = RoomOf(map);
+    if (piece.rectangle.area > limits.rectangle) return {};
     const Refusal ends = RefusalOf(mesh, map);
     piece.extent = ends.extent;
     if (piece.extent > limits.extent) return {};
@@ -378,6 +441,19 @@ class Segmentation {
     piece.faces = std::move(faces);
     this->Keep(piece, mesh, map);
     return piece;
+  }
+
+  /// Two charts that keep to the limits together, and each to their extent; the second one has no
+  /// faces where they do not.
+  std::pair<Piece, Piece> TryToFlattenBoth(std::array<std::vector<int32_t>, 2> sides,
+                                           Limits limits) {
+    std::pair<Piece, Piece> both;
+    both.first = this->TryToFlatten(std::move(sides[0]), limits);
+    limits.rectangle -= both.first.rectangle.area;
+    if (!both.first.faces.empty()) {
+      both.second = this->TryToFlatten(std::move(sides[1]), limits);
+    }
+    return both;
   }
 
   /// Empty where no map keeps within the stretch.
@@ -424,7 +500,7 @@ class Segmentation {
 bool ChartSet::IsOf(const ChartOptions& other) const {
   return !charts.empty() && other.stretch == options.stretch &&
          other.mostEmpty == options.mostEmpty && LongestOf(other) >= leastLongest &&
-         LongestOf(other) < mostLongest;
+         LongestOf(other) < mostLongest && other.margin > leastMargin && other.margin <= mostMargin;
 }
 
 std::vector<int32_t> ChartOfFace(const ChartSet& set) {
@@ -447,6 +523,7 @@ ChartSet CutIntoCharts(const TriangleMesh& mesh, const ClusterTree& tree,
     throw Error("The stretch of a chart is a factor of at least 1.");
   }
   if (!(options.longest >= 0)) throw Error("A chart's extent is 0 m or more.");
+  if (!(options.margin >= 0)) throw Error("The margin of a chart is 0 m or more.");
   if (!(options.mostEmpty >= 0)) throw Error("What a chart leaves empty is 0 m2 or more.");
   int64_t faces = 0;
   for (const int32_t root : tree.surfaceRoots) faces += tree.nodes[size_t(root)].faceCount;

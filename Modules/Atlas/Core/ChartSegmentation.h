@@ -20,6 +20,9 @@ struct ChartOptions {
   /// m2 that a chart leaves empty of its smallest rectangle at most; 0: any. Frames that large
   /// charts would not fit into are cut.
   double mostEmpty = 0;
+  /// m around a chart that its padding takes, [0, inf]. Charts are cut apart where the parts need
+  /// less room with it; none are where it is infinite.
+  double margin = std::numeric_limits<double>::infinity();
 };
 
 /// A cluster laid flat, or several that lie beside each other.
@@ -42,6 +45,8 @@ struct ChartSet {
   ChartOptions options;  ///< that they were cut by
   /// The extents from which and under which ChartOptions::longest leaves all charts as they are, m.
   double leastLongest = 0, mostLongest = std::numeric_limits<double>::infinity();
+  /// The margins above which and up to which ChartOptions::margin leaves all charts as they are, m.
+  double leastMargin = -1, mostMargin = std::numeric_limits<double>::infinity();
 
   struct FaceRange {
     const int32_t *first, *last;

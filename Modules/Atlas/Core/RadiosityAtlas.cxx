@@ -32,6 +32,8 @@ constexpr int kMostPages = 256;
 /// Texels around a chart that are its own, whatever the padding; and those by which it may be off,
 /// as texture coordinates are in single precision.
 constexpr double kLeastMargin = 0.5, kRounding = 1. / 256;
+/// Texels at the edge of a chart that it touches in part.
+constexpr double kTouched = 0.5;
 /// Texels of a level that a lookup there takes in at most, to one side of its place.
 constexpr double kReach = 1.5;
 
@@ -241,6 +243,7 @@ ChartOptions ChartOptionsOf(const ClusterTree& tree, const AtlasOptions& options
   chartOptions.stretch = options.stretch;
   chartOptions.longest = LongestChart(options) / FirstDensity(options, area);
   chartOptions.mostEmpty = kMostEmpty * area;
+  chartOptions.margin = (Margin(options) + kTouched) / FirstDensity(options, area);
   return chartOptions;
 }
 

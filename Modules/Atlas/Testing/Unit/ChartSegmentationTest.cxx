@@ -128,6 +128,26 @@ TEST(ChartSegmentation, LongAndEmptyChartsAreCut) {
   EXPECT_GE(CutIntoCharts(frame.mesh, frame.tree, full).charts.size(), 2u);
 }
 
+TEST(ChartSegmentation, EmptyChartsAreCutApartWhereThatSavesRoom) {
+  // An L whose arms are 1 m wide, 3 m long outside.
+  const Clustered bent(GridMesh(24, 4, [](double u, double v) {
+    const double t = 2 * u - 1;
+    if (t < 0) return Vec3f(float((3 - v) * (1 + t)), float(v), 0);
+    return Vec3f(float(3 - v), float(v + (3 - v) * t), 0);
+  }));
+  EXPECT_EQ(CutIntoCharts(bent.mesh, bent.tree).charts.size(), 1u);
+  ChartOptions options;
+  options.margin = 0.01;
+  const ChartSet set = CutIntoCharts(bent.mesh, bent.tree, options);
+  EXPECT_EQ(set.charts.size(), 2u);
+  ExpectValid(bent.mesh, set);
+  // With so much around them two need more.
+  options.margin = 1;
+  EXPECT_EQ(CutIntoCharts(bent.mesh, bent.tree, options).charts.size(), 1u);
+  options.margin = -1;
+  EXPECT_THROW(CutIntoCharts(bent.mesh, bent.tree, options), Error);
+}
+
 // What IsOf takes for the same is the same, and it takes some: charts are kept by it.
 TEST(ChartSegmentation, KnowsOfOtherOptionsThatCutAlike) {
   const Clustered torus(Torus(60, 30));
@@ -146,6 +166,20 @@ TEST(ChartSegmentation, KnowsOfOtherOptionsThatCutAlike) {
   EXPECT_GT(alike, 0);
   EXPECT_GT(others, 0);
   options.longest = 1;
+  options.margin = 0.01;
+  const ChartSet apart = CutIntoCharts(torus.mesh, torus.tree, options);
+  EXPECT_TRUE(apart.IsOf(options));
+  EXPECT_FALSE(apart.IsOf(set.options));
+  EXPECT_FALSE(set.IsOf(apart.options));
+  for (const double margin : {0., 0.0099, 0.0101, 0.02, 0.05, 0.1, 0.2, 0.5, 1.}) {
+    options.margin = margin;
+    const ChartSet again = CutIntoCharts(torus.mesh, torus.tree, options);
+    const bool isAlike = apart.IsOf(options);
+    EXPECT_TRUE(!isAlike || again.places == apart.places) << margin;
+    ++(isAlike ? alike : others);
+  }
+  EXPECT_GT(alike, 1);
+  options = set.options;
   options.stretch = 3;
   EXPECT_FALSE(set.IsOf(options));
   EXPECT_FALSE(ChartSet().IsOf({}));
