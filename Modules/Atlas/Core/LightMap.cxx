@@ -11,6 +11,12 @@ namespace lambert {
 
 namespace {
 
+/// Of a texel, what a triangle covers that has it alone: all but what rounding leaves.
+constexpr double kWhole = 1 - 1e-6;
+/// Light in the middle of a texel that differs from the mean of what covers it by more than this
+/// factor does not stand for it: smooth light changes less, and is best known by its middle.
+constexpr float kMostFactor = 1.5f;
+
 /// A page while it is filled.
 struct Canvas {
   std::vector<Spectrum> texels;
@@ -44,55 +50,173 @@ class PlaceInFace {
   std::array<Vec2d, 3> world_, texels_;
 };
 
-/// Light of the triangles in the texels whose middles they hold; then in those that hold a corner
-/// or the middle of a triangle and have none.
+/// A triangle of the solution on the page of its face.
+struct DrawnTriangle {
+  std::array<Vec2d, 3> corners;  ///< in texels
+  std::array<Spectrum, 3> light;
+
+  Spectrum At(const std::array<double, 3>& w) const {
+    return light[0] * float(w[0]) + light[1] * float(w[1]) + light[2] * float(w[2]);
+  }
+  /// Beside the triangle, of a place on its border.
+  Spectrum At(const Vec2d& place) const {
+    std::array<double, 3> w = Barycentric(corners, place);
+    for (double& part : w) part = std::max(0., part);
+    const double sum = w[0] + w[1] + w[2];
+    for (double& part : w) part /= sum;
+    return this->At(w);
+  }
+};
+
+DrawnTriangle Draw(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
+                   const RadiositySolution& solution, size_t triangle) {
+  const PlaceInFace placeOf(mesh, atlas, solution.inputFaceId[triangle]);
+  DrawnTriangle drawn;
+  for (size_t c = 0; c < 3; ++c) {
+    const size_t point = size_t(solution.mesh.triangles[triangle][c]);
+    drawn.corners[c] = placeOf(solution.mesh.positions[point]);
+    drawn.light[c] = solution.irradiance[point];
+  }
+  return drawn;
+}
+
+/// Whether light in the middle of a texel stands for what covers it, of that mean.
+bool Stands(const Spectrum& middle, const Spectrum& mean) {
+  return middle.Mean() <= kMostFactor * mean.Mean() && mean.Mean() <= kMostFactor * middle.Mean();
+}
+
+/// Texels of which several triangles, or the edge of a chart, leave parts alone. They get the light
+/// of the triangle that holds the middle, where it stands for the others, or else the mean by area:
+/// each part is looked up as far from where it lies as the middle of the texel is from that of all
+/// its parts.
+class TexelsInParts {
+ public:
+  TexelsInParts(size_t pages, size_t size)
+      : size_(size), numbers_(pages, std::vector<int32_t>(size * size, -1)) {}
+
+  void Add(size_t triangle, size_t page, size_t texel, const TexelCover& cover, bool holdsMiddle) {
+    int32_t& number = numbers_[page][texel];
+    if (number < 0) {
+      number = int32_t(texels_.size());
+      texels_.emplace_back();
+      texels_.back().page = page;
+      texels_.back().texel = texel;
+    }
+    const Vec2f place(cover.middle - this->MiddleOf(texel));
+    parts_.push_back({triangle, number, float(cover.area), place, holdsMiddle});
+    texels_[size_t(number)].area += float(cover.area);
+    texels_[size_t(number)].moment = texels_[size_t(number)].moment + place * float(cover.area);
+  }
+
+  /// Into those that have no light yet; rounding leaves a part of some that a triangle has alone.
+  /// Then there are none.
+  void DrawInto(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
+                const RadiositySolution& solution, std::vector<Canvas>* canvases) {
+    DrawnTriangle drawn;
+    for (size_t i = 0; i < parts_.size(); ++i) {
+      const Part& part = parts_[i];
+      if (i == 0 || part.triangle != parts_[i - 1].triangle) {
+        drawn = Draw(mesh, atlas, solution, part.triangle);
+      }
+      Texel& texel = texels_[size_t(part.texel)];
+      const Vec2d middle = this->MiddleOf(texel.texel);
+      const Vec2f offset = part.place - texel.moment * (1 / texel.area);
+      texel.mean += drawn.At(middle + Vec2d(offset)) * (part.area / texel.area);
+      if (!part.holdsMiddle) continue;
+      texel.middle = drawn.At(middle);
+      texel.hasMiddle = true;
+    }
+    for (const Texel& texel : texels_) {
+      Canvas& canvas = (*canvases)[texel.page];
+      if (canvas.isFilled[texel.texel]) continue;
+      const bool stands = texel.hasMiddle && Stands(texel.middle, texel.mean);
+      canvas.texels[texel.texel] = stands ? texel.middle : texel.mean;
+      canvas.isFilled[texel.texel] = 1;
+    }
+    for (const Texel& texel : texels_) numbers_[texel.page][texel.texel] = -1;
+    texels_.clear();
+    parts_.clear();
+  }
+
+ private:
+  struct Texel {
+    size_t page = 0, texel = 0;
+    float area = 0;         ///< texels, that is covered
+    Vec2f moment;           ///< texels, from the middle
+    Spectrum mean, middle;  ///< light of what covers it, and light there
+    bool hasMiddle = false;
+  };
+  struct Part {
+    size_t triangle;
+    int32_t texel;  ///< of `texels_`
+    float area;     ///< texels
+    Vec2f place;    ///< its middle, texels from that of the texel
+    bool holdsMiddle;
+  };
+
+  Vec2d MiddleOf(size_t texel) const {
+    return {double(texel % size_) + 0.5, double(texel / size_) + 0.5};
+  }
+
+  size_t size_;
+  std::vector<std::vector<int32_t>> numbers_;  ///< by page and texel: in `texels_`, or -1
+  std::vector<Texel> texels_;
+  std::vector<Part> parts_;
+};
+
+/// Light of the triangles in the texels that they cover; then in those that hold a corner or the
+/// middle of a triangle and have none.
 void Rasterize(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
                const std::vector<int32_t>& chartOfFace, const RadiositySolution& solution,
                std::vector<Canvas>* canvases) {
   const std::vector<uint8_t> sides = BrighterSidesOfSurfaces(mesh, solution);
   const int size = atlas.pageSize;
   struct Splat {
-    int32_t page;
-    size_t texel;
+    size_t page, texel;
     Spectrum light;
   };
   std::vector<Splat> splats;
+  TexelsInParts parts(canvases->size(), size_t(size));
+  const auto chartOf = [&](size_t t) { return chartOfFace[size_t(solution.inputFaceId[t])]; };
+  std::vector<size_t> order;
   for (size_t t = 0; t < solution.mesh.triangles.size(); ++t) {
-    const int64_t face = solution.inputFaceId[t];
-    if (solution.side[t] != sides[size_t(mesh.surfaceId[size_t(face)])]) continue;
-    const int32_t page = atlas.pageOfChart[size_t(chartOfFace[size_t(face)])];
-    const PlaceInFace placeOf(mesh, atlas, face);
-    std::array<Vec2d, 3> corners;
-    std::array<Spectrum, 3> light;
-    for (size_t c = 0; c < 3; ++c) {
-      const size_t point = size_t(solution.mesh.triangles[t][c]);
-      corners[c] = placeOf(solution.mesh.positions[point]);
-      light[c] = solution.irradiance[point];
+    const int32_t surface = mesh.surfaceId[size_t(solution.inputFaceId[t])];
+    if (solution.side[t] == sides[size_t(surface)]) order.push_back(t);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return chartOf(a) < chartOf(b); });
+  for (size_t i = 0; i < order.size(); ++i) {
+    // No two charts have parts of one texel.
+    const size_t t = order[i];
+    if (i > 0 && chartOf(t) != chartOf(order[i - 1])) {
+      parts.DrawInto(mesh, atlas, solution, canvases);
     }
-    const auto at = [&](const std::array<double, 3>& w) {
-      return light[0] * float(w[0]) + light[1] * float(w[1]) + light[2] * float(w[2]);
-    };
-    Canvas& canvas = (*canvases)[size_t(page)];
-    ForEachTexelOf(corners, size, [&](int x, int y) {
-      std::array<double, 3> w = Barycentric(corners, {x + 0.5, y + 0.5});
-      const double sum = std::max(0., w[0]) + std::max(0., w[1]) + std::max(0., w[2]);
-      for (double& part : w) part = std::max(0., part) / sum;
+    const size_t page = size_t(atlas.pageOfChart[size_t(chartOf(t))]);
+    const DrawnTriangle drawn = Draw(mesh, atlas, solution, t);
+    Canvas& canvas = (*canvases)[page];
+    ForEachTexelCovered(drawn.corners, size, [&](int x, int y, const TexelCover& cover) {
       const size_t texel = size_t(y) * size_t(size) + size_t(x);
-      canvas.texels[texel] = at(w);
+      if (cover.area < kWhole) {
+        const std::array<double, 3> w = Barycentric(drawn.corners, {x + 0.5, y + 0.5});
+        parts.Add(t, page, texel, cover, std::min({w[0], w[1], w[2]}) >= 0);
+        return;
+      }
+      canvas.texels[texel] = drawn.At(cover.middle);
       canvas.isFilled[texel] = 1;
     });
     constexpr double kThird = 1. / 3;
     const std::array<std::array<double, 3>, 4> places = {
         {{kThird, kThird, kThird}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     for (const std::array<double, 3>& w : places) {
-      const Vec2d p = corners[0] * w[0] + corners[1] * w[1] + corners[2] * w[2];
+      const Vec2d p = drawn.corners[0] * w[0] + drawn.corners[1] * w[1] + drawn.corners[2] * w[2];
       const int x = std::min(size - 1, std::max(0, int(p.x)));
       const int y = std::min(size - 1, std::max(0, int(p.y)));
-      splats.push_back({page, size_t(y) * size_t(size) + size_t(x), at(w)});
+      splats.push_back({page, size_t(y) * size_t(size) + size_t(x), drawn.At(w)});
     }
   }
+  parts.DrawInto(mesh, atlas, solution, canvases);
   for (const Splat& splat : splats) {
-    Canvas& canvas = (*canvases)[size_t(splat.page)];
+    Canvas& canvas = (*canvases)[splat.page];
     if (canvas.isFilled[splat.texel]) continue;
     canvas.texels[splat.texel] = splat.light;
     canvas.isFilled[splat.texel] = 1;

@@ -63,6 +63,59 @@ void ForEachColumnNear(const std::array<Vec2d, 3>& corners, double margin, int w
   }
 }
 
+/// The part of a triangle that lies in the square of a texel.
+struct TexelCover {
+  double area = 0;  ///< texels
+  Vec2d middle;     ///< its centroid, in texels
+};
+
+/// Of a triangle that winds forward, in the texel from (x, y) to (x + 1, y + 1).
+inline TexelCover CoverOfTexel(const std::array<Vec2d, 3>& corners, int x, int y) {
+  // Cut off what lies beyond each side of the square, one after the other.
+  std::array<Vec2d, 7> polygon = {corners[0], corners[1], corners[2]}, kept;
+  size_t count = 3;
+  for (int side = 0; side < 4 && count > 0; ++side) {
+    const auto within = [&](const Vec2d& p) {
+      return side == 0 ? p.x - x : side == 1 ? x + 1 - p.x : side == 2 ? p.y - y : y + 1 - p.y;
+    };
+    size_t keptCount = 0;
+    for (size_t i = 0; i < count; ++i) {
+      const Vec2d &a = polygon[i], &b = polygon[(i + 1) % count];
+      const double atA = within(a), atB = within(b);
+      if (atA >= 0) kept[keptCount++] = a;
+      if ((atA < 0) != (atB < 0)) kept[keptCount++] = a + (b - a) * (atA / (atA - atB));
+    }
+    std::swap(polygon, kept);
+    count = keptCount;
+  }
+
+  // What is left is a fan of triangles.
+  TexelCover cover;
+  Vec2d moment;
+  for (size_t i = 1; i + 1 < count; ++i) {
+    const Vec2d u = polygon[i] - polygon[0], v = polygon[i + 1] - polygon[0];
+    const double area = 0.5 * (u.x * v.y - u.y * v.x);
+    cover.area += area;
+    moment = moment + (u + v) * (area / 3);
+  }
+  if (cover.area > 0) cover.middle = polygon[0] + moment * (1 / cover.area);
+  return cover;
+}
+
+/// Calls visit(x, y, TexelCover) for every texel of a page of `size` x `size` of which the triangle
+/// covers some area, whichever way it winds; corners in texels.
+template <class Visit>
+void ForEachTexelCovered(std::array<Vec2d, 3> corners, int size, const Visit& visit) {
+  const Vec2d u = corners[1] - corners[0], v = corners[2] - corners[0];
+  if (u.x * v.y < u.y * v.x) std::swap(corners[1], corners[2]);
+  ForEachColumnNear(corners, 0, size, size, [&](int x, int low, int high) {
+    for (int y = low; y < high; ++y) {
+      const TexelCover cover = CoverOfTexel(corners, x, y);
+      if (cover.area > 0) visit(x, y, cover);
+    }
+  });
+}
+
 /// Weights of the corners at a place in the plane; those of the nearest corner where the triangle
 /// has no area.
 inline std::array<double, 3> Barycentric(const std::array<Vec2d, 3>& corners, const Vec2d& place) {

@@ -97,6 +97,41 @@ TEST(LightMap, ASlopeIsKept) {
   }
 }
 
+// Slivers of a fifth of a texel at most, one in five of them dark.
+TEST(LightMap, NoDarkSliverStandsForATexelOfBrightOnes) {
+  Lit plane(FlatGrid(1), Pages(64), [](const Vec3f&) { return Spectrum(1.f); });
+  plane.solution = {};
+  constexpr int kSlivers = 5 * 64;
+  for (int64_t face = 0; face < plane.mesh.FaceCount(); ++face) {
+    const Vec3f &a = plane.mesh.Corner(face, 0), &b = plane.mesh.Corner(face, 1),
+                &c = plane.mesh.Corner(face, 2);
+    for (int i = 0; i < kSlivers; ++i) {
+      const int32_t first = int32_t(plane.solution.mesh.positions.size());
+      for (const Vec3f& p :
+           {a, b + (c - b) * (float(i) / kSlivers), b + (c - b) * (float(i + 1) / kSlivers)}) {
+        plane.solution.mesh.positions.push_back(p);
+        plane.solution.irradiance.push_back(Spectrum(i % 5 == 2 ? 0.f : 10.f));
+      }
+      plane.solution.mesh.triangles.push_back({first, first + 1, first + 2});
+      plane.solution.inputFaceId.push_back(face);
+      plane.solution.side.push_back(kFront);
+    }
+  }
+  const LightMap map = plane.Map();
+  int texels = 0;
+  float darkest = 10;
+  const std::vector<int32_t> faces = FacesOfTexels(plane.atlas, 0);
+  for (size_t i = 0; i < faces.size(); ++i) {
+    if (faces[i] < 0) continue;
+    ++texels;
+    // Bright slivers stand for themselves and the dark ones among them, no dark one does. A texel
+    // at the border holds few.
+    darkest = std::min(darkest, map.pages[0][i].g);
+  }
+  EXPECT_GT(darkest, 5);
+  EXPECT_GT(texels, 2000);
+}
+
 TEST(LightMap, SeamsAreClosed) {
   const Lit torus(Torus(60, 30), Pages(256), Slope);
   const LightMap map = torus.Map();
