@@ -120,7 +120,7 @@ insist_on_valid(*written)
 
 # As OBJ: the faces of either, the page, and the colours of points behind their positions.
 obj = temporary("halves mixed.obj")
-solve(*halves, *chosen, "-o", obj)
+solve(*halves[:-2], *chosen, "-o", obj)  # Which no camera looks at.
 lines = [line.split() for line in open(obj)]
 points_of_obj = np.array([line[1:] for line in lines if line[0] == "v"], float)
 corners = [[corner.split("/") for corner in line[1:]] for line in lines if line[0] == "f"]

@@ -9,15 +9,14 @@ from GltfModel import REPEAT, GltfModel, decoded, insist_on_valid
 from PolyDataFile import mesh_of
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkTexture, vtkWindowToImageFilter
 
 import lambert
 
 # A floor of 2 m under four by four checks, light and dark, of an image that repeats once; a wall without one; a lamp.
 CHECKS, CODES, FACTOR = 4, (230, 90), (0.9, 0.8, 0.7)
-is_dark = np.add.outer(np.arange(64) // 32, np.arange(64) // 32) % 2
-image_name = write_png(temporary("checks of the floor.png"), np.where(is_dark, CODES[1], CODES[0])[..., None].repeat(3, 2))
+checks = np.where(np.add.outer(np.arange(64) // 32, np.arange(64) // 32) % 2, CODES[1], CODES[0])
+image_name = write_png(temporary("checks of the floor.png"), checks[..., None].repeat(3, 2))
 scene = temporary("floor.obj")
 with open(temporary("floor.mtl"), "w") as file:
     file.write(f"newmtl floor\nKd {' '.join(map(str, FACTOR))}\nmap_Kd {os.path.basename(image_name)}\n"
@@ -114,7 +113,7 @@ def our_picture():
         if is_floor:
             image = vtkImageData()
             image.SetDimensions(64, 64, 1)
-            linear = decoded(np.where(rows, CODES[1], CODES[0])).reshape(-1, 1) * FACTOR
+            linear = decoded(checks).reshape(-1, 1) * FACTOR
             image.GetPointData().SetScalars(numpy_to_vtk(linear.astype(np.float32), deep=1))
             texture = vtkTexture()
             texture.SetInputData(image)
