@@ -101,11 +101,19 @@ double GatheredMesh::Error(int64_t triangle, const LightScale& scale) const {
                           : double(kFirstNonlinearity);
   double error = part * part * this->Difference(triangle) / 6 *
                  ErrorWeight(this->DarkestLight(triangle), scale.mean, scale.meanSquare);
-  const auto probed = probed_.find(this->Key(triangle));
-  if (probed != probed_.end()) {
-    error = std::max(error, this->ErrorOfMiddle(triangle, probed->second, scale));
+  if (const Middle* const middle = middleOfTriangle_[size_t(triangle)]) {
+    error = std::max(error, this->ErrorOfMiddle(triangle, *middle, scale));
   }
   return this->Area(triangle) * error;
+}
+
+// Of every triangle; 0 where it does not count.
+std::vector<double> GatheredMesh::Errors(const LightScale& scale) const {
+  std::vector<double> errors(mesh_.Triangles().size(), 0);
+  ParallelForEach(int64_t(errors.size()), 1024, [&](int64_t t) {
+    if (this->Receives(t)) errors[size_t(t)] = this->Error(t, scale);
+  });
+  return errors;
 }
 
 // The same, not times area, as its middle tells it.
@@ -141,10 +149,11 @@ void GatheredMesh::ProbeMiddles(double wanted, int64_t* rays) {
     double error = 0;  ///< squared, of each, by those that were asked
   };
   std::map<std::array<int, 2>, Alike> classes;
+  const std::vector<double> errors = this->Errors(scale);
   for (int64_t t = 0; t < int64_t(mesh_.Triangles().size()); ++t) {
     const double area = this->Area(t);
-    if (!this->Receives(t) || !(area > 0) || probed_.count(this->Key(t))) continue;
-    const double squared = this->Error(t, scale) / (area * wanted * wanted);
+    if (!this->Receives(t) || !(area > 0) || middleOfTriangle_[size_t(t)]) continue;
+    const double squared = errors[size_t(t)] / (area * wanted * wanted);
     const int error = int(std::floor(std::log2(std::max(squared, kLeastError * kLeastError)) / 2));
     classes[{std::ilogb(area), error}].triangles.push_back(t);
   }
@@ -168,7 +177,7 @@ void GatheredMesh::ProbeMiddles(double wanted, int64_t* rays) {
   for (auto& [key, alike] : classes) {
     for (size_t i = 0; i < alike.asked; ++i) {
       const int64_t t = alike.triangles[i];
-      const double error = this->ErrorOfMiddle(t, probed_[this->Key(t)], scale);
+      const double error = this->ErrorOfMiddle(t, *middleOfTriangle_[size_t(t)], scale);
       alike.error += this->Area(t) / scale.area * error / double(alike.asked);
     }
     byError.push_back(&alike);
@@ -185,6 +194,15 @@ void GatheredMesh::ProbeMiddles(double wanted, int64_t* rays) {
                 alike->triangles.end());
   }
   this->Probe(rest, rays);
+}
+
+// Those of triangles that were left as they are when others were cut.
+void GatheredMesh::RecallMiddles() {
+  middleOfTriangle_.resize(mesh_.Triangles().size());
+  ParallelForEach(int64_t(mesh_.Triangles().size()), 1024, [&](int64_t t) {
+    const auto probed = probed_.find(this->Key(t));
+    middleOfTriangle_[size_t(t)] = probed != probed_.end() ? &probed->second : nullptr;
+  });
 }
 
 // How far the light in the middle of triangles is from what their corners interpolate.
@@ -213,8 +231,9 @@ void GatheredMesh::Probe(const std::vector<int64_t>& triangles, int64_t* rays) {
       noise += double(variance_[size_t(p)]) / 9;
     }
     const double deviation = SquaredNorm(gathered[i].irradiance - expected);
-    probed_[this->Key(triangles[i])] = {gathered[i].irradiance,
-                                        std::max(0.0, deviation - kScatter * noise)};
+    Middle& middle = probed_[this->Key(triangles[i])];
+    middleOfTriangle_[size_t(triangles[i])] = &middle;
+    middle = {gathered[i].irradiance, std::max(0.0, deviation - kScatter * noise)};
   }
 }
 
@@ -224,9 +243,8 @@ RadiositySolution GatheredMesh::Deliver() const {
     FittedTriangle& triangle = triangles[size_t(t)];
     triangle.points = mesh_.PointsOfTriangles()[size_t(t)];
     triangle.area = float(this->Area(t));
-    const auto probed = probed_.find(this->Key(t));
-    if (probed != probed_.end()) {
-      triangle.middle = probed->second.irradiance;
+    if (const Middle* const middle = middleOfTriangle_[size_t(t)]) {
+      triangle.middle = middle->irradiance;
     } else {
       for (const int32_t p : triangle.points) triangle.middle += irradiance_[size_t(p)] / 3.f;
     }
@@ -319,18 +337,22 @@ double GatheredMesh::DarkestLight(int64_t triangle) const {
 // Of what receives; what blazes counts as a multiple of the mean.
 GatheredMesh::LightScale GatheredMesh::MeasureLight() const {
   LightScale scale;
-  const int64_t count = int64_t(mesh_.Triangles().size());
-  for (int64_t t = 0; t < count; ++t) {
-    if (!this->Receives(t)) continue;
-    scale.area += this->Area(t);
-    scale.mean += this->Area(t) * this->MeanLight(t);
+  const size_t count = mesh_.Triangles().size();
+  std::vector<double> areas(count, 0), lights(count, 0);
+  ParallelForEach(int64_t(count), 1024, [&](int64_t t) {
+    if (!this->Receives(t)) return;
+    areas[size_t(t)] = this->Area(t);
+    lights[size_t(t)] = this->MeanLight(t);
+  });
+  for (size_t t = 0; t < count; ++t) {
+    scale.area += areas[t];
+    scale.mean += areas[t] * lights[t];
   }
   if (!(scale.mean > 0)) return {};
   scale.mean /= scale.area;
-  for (int64_t t = 0; t < count; ++t) {
-    if (!this->Receives(t)) continue;
-    const double light = std::min(this->MeanLight(t), kBlazing * scale.mean);
-    scale.meanSquare += this->Area(t) * light * light / scale.area;
+  for (size_t t = 0; t < count; ++t) {
+    const double light = std::min(lights[t], kBlazing * scale.mean);
+    scale.meanSquare += areas[t] * light * light / scale.area;
   }
   return scale;
 }

@@ -27,7 +27,8 @@ class GatheredMesh {
         skip_(skip),
         receives_(ReceivingFaces(hierarchy->GetScene().mesh)),
         mesh_(hierarchy, litSides, RefinedMesh::Use::Gather),
-        firstTriangles_(int64_t(mesh_.Triangles().size())) {}
+        firstTriangles_(int64_t(mesh_.Triangles().size())),
+        middleOfTriangle_(mesh_.Triangles().size(), nullptr) {}
 
   /// Light at the points that have none yet.
   void GatherAtPoints(int64_t* rays, const ProgressCallback& progress);
@@ -90,9 +91,11 @@ class GatheredMesh {
   LightScale MeasureLight() const;
   double MeanLight(int64_t triangle) const;
   double DarkestLight(int64_t triangle) const;
+  void RecallMiddles();
   void Probe(const std::vector<int64_t>& triangles, int64_t* rays);
   double Difference(int64_t triangle) const;
   double Error(int64_t triangle, const LightScale& scale) const;
+  std::vector<double> Errors(const LightScale& scale) const;
   double ErrorOfMiddle(int64_t triangle, const Middle& middle, const LightScale& scale) const;
   double Area(int64_t triangle) const;
   uint64_t Key(int64_t triangle) const;
@@ -119,7 +122,8 @@ class GatheredMesh {
   const int64_t firstTriangles_;
   std::vector<Spectrum> irradiance_;             ///< per point
   std::vector<float> variance_;                  ///< per point, of the irradiance
-  std::unordered_map<uint64_t, Middle> probed_;  ///< by triangle
+  std::unordered_map<uint64_t, Middle> probed_;  ///< by the key of the triangle
+  std::vector<const Middle*> middleOfTriangle_;  ///< of them; null where it was not asked
   std::vector<uint8_t> isNew_;                   ///< per point: gathered in this round
   std::vector<float> nonlinearity_;              ///< per patch
   std::vector<Before> before_;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 
+#include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
 #include "Radiosity/Core/GatheredMesh.h"
 #include "Radiosity/Core/LightEdges.h"
@@ -43,13 +44,12 @@ std::vector<GatheredMesh::ChosenPatch> GatheredMesh::ChoosePatches(double wanted
   const LightScale scale = this->MeasureLight();
   if (!(scale.mean > 0)) return {};
   const int64_t count = int64_t(mesh_.Triangles().size());
-  std::vector<double> errors(size_t(count), 0);
+  std::vector<double> errors = this->Errors(scale);
+  ParallelForEach(count, 1024, [&](int64_t t) {
+    errors[size_t(t)] = this->IsAtFloor(t) ? 0 : errors[size_t(t)] / scale.area;
+  });
   double total = 0;
-  for (int64_t t = 0; t < count; ++t) {
-    if (!this->Receives(t) || this->IsAtFloor(t)) continue;
-    errors[size_t(t)] = this->Error(t, scale) / scale.area;
-    total += errors[size_t(t)];
-  }
+  for (const double error : errors) total += error;
   const double allowed = wanted * wanted;
   if (total <= allowed) return {};
   std::vector<double> sorted = errors;
@@ -247,6 +247,7 @@ bool GatheredMesh::CutTriangles(double wanted, int64_t* rays) {
   beforeOfPatch_.assign(size_t(leaves.PatchCount()), -1);
   for (const auto& [patch, index] : made) beforeOfPatch_[size_t(patch)] = index;
   mesh_.Triangulate();
+  this->RecallMiddles();
   return true;
 }
 

@@ -285,9 +285,13 @@ void GatheredPoints::Share(int32_t first, const SampleNeighbours& neighbours) {
 // by how much its rays have to grow until its scatter is no blotch. Probes need nothing.
 GatheredPoints::Scatter GatheredPoints::ScatterOfNew(int32_t first,
                                                      const SampleNeighbours& neighbours) const {
-  const auto lightOf = [](const Record& r) {
-    return std::sqrt(SquaredNorm(r.direct.irradiance + r.bounced.irradiance));
-  };
+  std::vector<double> lights(records_.size());
+  std::vector<float> ofRay(records_.size());
+  ParallelForEach(int64_t(records_.size()), 1024, [&](int64_t i) {
+    const Record& r = records_[size_t(i)];
+    lights[size_t(i)] = std::sqrt(SquaredNorm(r.direct.irradiance + r.bounced.irradiance));
+    ofRay[size_t(i)] = r.bounced.ofRay;
+  });
   double area = 0, mean = 0, meanSquare = 0;
   for (const Record& r : records_) area += r.isProbe ? 0 : double(r.at.area);
   const double each = 1 / double(std::max<int64_t>(1, deliveredCount_));
@@ -295,20 +299,18 @@ GatheredPoints::Scatter GatheredPoints::ScatterOfNew(int32_t first,
     if (r.isProbe) return 0.;
     return area > 0 ? kByArea * double(r.at.area) / area + (1 - kByArea) * each : each;
   };
-  for (const Record& r : records_) mean += share(r) * lightOf(r);
+  for (size_t i = 0; i < records_.size(); ++i) mean += share(records_[i]) * lights[i];
   Scatter scatter;
   scatter.noise.resize(records_.size(), 0);
   scatter.growth.resize(records_.size(), 1);
   if (!(mean > 0)) return scatter;
-  for (const Record& r : records_) {
-    const double light = std::min(lightOf(r), kBlazing * mean);
-    meanSquare += share(r) * light * light;
+  for (size_t i = 0; i < records_.size(); ++i) {
+    const double light = std::min(lights[i], kBlazing * mean);
+    meanSquare += share(records_[i]) * light * light;
   }
 
   // Rays of a point scatter as those of its neighbours do, where that is more: if each asked itself
   // alone, those that happened to find nothing would stay dark.
-  std::vector<float> ofRay(records_.size());
-  for (size_t i = 0; i < records_.size(); ++i) ofRay[i] = records_[i].bounced.ofRay;
   ParallelForEach(int64_t(records_.size()) - first, 256, [&](int64_t i) {
     const int32_t index = first + int32_t(i);
     const Record& r = records_[size_t(index)];
@@ -319,7 +321,7 @@ GatheredPoints::Scatter GatheredPoints::ScatterOfNew(int32_t first,
     for (const int32_t* other = begin; other != end; ++other) {
       around += double(ofRay[size_t(*other)]) / double(end - begin);
     }
-    const double own = double(r.bounced.ofRay), light = lightOf(r);
+    const double own = double(r.bounced.ofRay), light = lights[size_t(index)];
     const double scatters =
         double(r.bounced.variance) * (own > 0 ? std::max(1.0, around / own) : 1);
     scatter.noise[size_t(index)] = share(r) * scatters * ErrorWeight(light, mean, meanSquare);
@@ -339,19 +341,24 @@ void GatheredPoints::GatherWhereItScatters(int32_t first, const SampleNeighbours
     this->Share(first, neighbours);
     const Scatter scatter = this->ScatterOfNew(first, neighbours);
     double total = 0;
-    for (const double n : scatter.noise) total += n;
+    std::vector<double> noises;
+    for (size_t i = size_t(first); i < records_.size(); ++i) {
+      if (!(scatter.noise[i] > 0)) continue;
+      total += scatter.noise[i];
+      noises.push_back(scatter.noise[i]);
+    }
 
     // By which factor the rays of a point with one unit of noise grow; one that has no more than
     // its share of what may be left has enough, however much there is elsewhere.
     double low = std::sqrt(allowed / double(std::max<int64_t>(1, deliveredCount_))), high = low;
-    for (const double n : scatter.noise) high = std::max(high, std::sqrt(n));
+    for (const double n : noises) high = std::max(high, std::sqrt(n));
     const auto growth = [&](double n, double unit) {
       return std::min(double(kMostGrowth), std::max(1.0, std::sqrt(n) / unit));
     };
     for (int step = 0; step < 30 && total > allowed; ++step) {
       const double unit = (low + high) / 2;
       double left = 0;
-      for (const double n : scatter.noise) left += n / growth(n, unit);
+      for (const double n : noises) left += n / growth(n, unit);
       (left > allowed ? high : low) = unit;
     }
 
