@@ -28,6 +28,7 @@ constexpr int kLeastHole = 6;  ///< texels along its shorter side
 struct Shape {
   ChartMask mask;
   std::vector<int> low, high;
+  int mostLow = 0;   ///< of `low`
   int64_t area = 0;  ///< texels
 
   explicit Shape(ChartMask mask_ = {}) : mask(std::move(mask_)) {
@@ -36,6 +37,7 @@ struct Shape {
       while (first < last && !mask.IsTaken(x, first)) ++first;
       while (last > first && !mask.IsTaken(x, last - 1)) --last;
       low.push_back(first);
+      mostLow = std::max(mostLow, first);
       high.push_back(last);
       for (int y = first; y < last; ++y) area += mask.IsTaken(x, y);
     }
@@ -55,22 +57,38 @@ class Bin {
     double cost = std::numeric_limits<double>::max();
   };
 
-  /// Where the chart comes to lie lowest and leaves least empty, in the bin; x < 0: nowhere.
-  Spot Find(const Shape& chart) const {
+  /// Where the chart comes to lie lowest and leaves least empty, in the bin, at less than `cost`;
+  /// x < 0: nowhere.
+  Spot Find(const Shape& chart, double cost) const {
     Spot best;
+    best.cost = cost;
     const int width = chart.Width();
-    if (chart.Height() > height_ - least_) return best;
+    const auto isTooHigh = [&](int y) {
+      return y + chart.Height() > height_ || double(y + chart.Height()) >= best.cost;
+    };
+    if (isTooHigh(least_ - chart.mostLow)) return best;
+    int known = 0;  // Columns up to this one let it lie low enough.
     for (int x = 0; x + width <= int(top_.size()); ++x) {
+      // Past the last column that holds it too high wherever it crosses it.
+      int last = -1;
+      for (known = std::max(x, known); known < x + width; ++known) {
+        if (isTooHigh(top_[size_t(known)] - chart.mostLow)) last = known;
+      }
+      if (last >= 0) {
+        x = last;
+        continue;
+      }
+
       // As low as it falls.
       int y = 0;
       for (int i = 0; i < width; ++i) {
         y = std::max(y, top_[size_t(x + i)] - chart.low[size_t(i)]);
       }
-      if (y + chart.Height() > height_ || double(y + chart.Height()) >= best.cost) continue;
+      if (isTooHigh(y)) continue;
       int64_t waste = 0;
       for (int i = 0; i < width; ++i) waste += y + chart.low[size_t(i)] - top_[size_t(x + i)];
-      const double cost = y + chart.Height() + kWaste * double(waste) / width;
-      if (cost < best.cost) best = {x, y, cost};
+      const double found = y + chart.Height() + kWaste * double(waste) / width;
+      if (found < best.cost) best = {x, y, found};
     }
     return best;
   }
@@ -163,8 +181,8 @@ class Page {
   bool PutInto(const std::array<Shape, 4>& turned, Bin* bin, ChartPlace* place) {
     Bin::Spot best;
     for (int turns = 0; turns < 4; ++turns) {
-      const Bin::Spot spot = bin->Find(turned[size_t(turns)]);
-      if (spot.x < 0 || spot.cost >= best.cost) continue;
+      const Bin::Spot spot = bin->Find(turned[size_t(turns)], best.cost);
+      if (spot.x < 0) continue;
       best = spot;
       place->turns = turns;
     }
