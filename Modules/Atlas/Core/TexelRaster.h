@@ -102,8 +102,11 @@ inline TexelCover CoverOfTexel(const std::array<Vec2d, 3>& corners, int x, int y
   return cover;
 }
 
+/// Less of a texel is rounding.
+constexpr double kLeastCover = 1e-12;
+
 /// Calls visit(x, y, TexelCover) for every texel of a page of `size` x `size` of which the triangle
-/// covers some area, whichever way it winds; corners in texels.
+/// covers at least kLeastCover, whichever way it winds; corners in texels.
 template <class Visit>
 void ForEachTexelCovered(std::array<Vec2d, 3> corners, int size, const Visit& visit) {
   const Vec2d u = corners[1] - corners[0], v = corners[2] - corners[0];
@@ -111,7 +114,7 @@ void ForEachTexelCovered(std::array<Vec2d, 3> corners, int size, const Visit& vi
   ForEachColumnNear(corners, 0, size, size, [&](int x, int low, int high) {
     for (int y = low; y < high; ++y) {
       const TexelCover cover = CoverOfTexel(corners, x, y);
-      if (cover.area > 0) visit(x, y, cover);
+      if (cover.area >= kLeastCover) visit(x, y, cover);
     }
   });
 }
