@@ -34,7 +34,7 @@ struct SolveArguments {
   int threads = 0;
   LightArguments lights;
   std::string probe, probeOutput, image, size = "960x720", camera, up = "auto", report, lightMap,
-      verifyOutput;
+                                         verifyOutput;
   std::optional<LitMeshSimplificationOptions> simplification;
   std::vector<PageFormat> pageFormats{PageFormat::Hdr};
   AtlasOptions atlas;

@@ -159,4 +159,32 @@ FlatTriangle Flatten(const ChartMesh& chart, size_t triangle) {
   return flat;
 }
 
+std::vector<Vec2d> MapOfFace(const ChartMesh& chart) {
+  const FlatTriangle flat = Flatten(chart, 0);
+  const Vec2d places[3] = {{0, 0}, {flat.length, 0}, {flat.x, flat.height}};
+  std::vector<Vec2d> map(3);
+  for (int c = 0; c < 3; ++c) {
+    map[size_t(chart.triangles[0][size_t((flat.first + c) % 3)])] = places[c];
+  }
+  return map;
+}
+
+Vec3d VectorAreaOf(const ChartMesh& mesh) {
+  Vec3d sum;
+  for (const auto& t : mesh.triangles) {
+    const Vec3d& a = mesh.positions[size_t(t[0])];
+    sum = sum + Cross(mesh.positions[size_t(t[1])] - a, mesh.positions[size_t(t[2])] - a) * 0.5;
+  }
+  return sum;
+}
+
+double AreaOf(const ChartMesh& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3d& a = mesh.positions[size_t(t[0])];
+    sum += 0.5 * Length(Cross(mesh.positions[size_t(t[1])] - a, mesh.positions[size_t(t[2])] - a));
+  }
+  return sum;
+}
+
 }  // namespace lambert

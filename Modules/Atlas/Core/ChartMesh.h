@@ -70,4 +70,12 @@ struct FlatTriangle {
 };
 FlatTriangle Flatten(const ChartMesh& chart, size_t triangle);
 
+/// Where the corners of a chart of one face lie in the plane, m; that it has no area does no harm.
+std::vector<Vec2d> MapOfFace(const ChartMesh& chart);
+
+/// Of all triangles, each with its normal, m2.
+Vec3d VectorAreaOf(const ChartMesh& mesh);
+/// m2.
+double AreaOf(const ChartMesh& mesh);
+
 }  // namespace lambert

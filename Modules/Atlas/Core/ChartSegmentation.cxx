@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "Atlas/Core/ChartJoining.h"
+#include "Atlas/Core/ChartRoom.h"
 #include "Atlas/Core/ChartStraightening.h"
 #include "Atlas/Core/ConformalMap.h"
 #include "Clustering/Core/ClusterFrame.h"
@@ -38,17 +39,6 @@ constexpr double kMostCutApart = 0.9;
 /// Charts cut anew may have lengths that are powers of this, times the root of all area.
 constexpr double kLengthStep = 1.2;
 
-/// One face at a place of its own; that it has no area does no harm.
-std::vector<Vec2d> MapOfFace(const ChartMesh& chart) {
-  const FlatTriangle flat = Flatten(chart, 0);
-  const Vec2d places[3] = {{0, 0}, {flat.length, 0}, {flat.x, flat.height}};
-  std::vector<Vec2d> map(3);
-  for (int c = 0; c < 3; ++c) {
-    map[size_t(chart.triangles[0][size_t((flat.first + c) % 3)])] = places[c];
-  }
-  return map;
-}
-
 /// Extents that a chart may be refused for: at least `edge`, its longest one, of which no cut makes
 /// it rid, and under `extent`, the longer side of its upright rectangle; m.
 struct Refusal {
@@ -74,33 +64,6 @@ Refusal RefusalOf(const ChartMesh& mesh, const std::vector<Vec2d>& map) {
 /// What is taken for no limit is one that no chart reaches.
 double LongestOf(const ChartOptions& options) {
   return options.longest > 0 ? options.longest : std::numeric_limits<double>::max();
-}
-
-/// Of the smallest rectangle.
-Room RoomOf(const std::vector<Vec2d>& map) {
-  std::vector<Vec2f> points;
-  for (const Vec2d& p : map) points.emplace_back(p);
-  const Vec2d half(MinimumAreaRectangle(points).halfExtent);
-  return {4 * half.x * half.y, 4 * (half.x + half.y)};
-}
-
-/// Of all triangles, each with its normal, m2.
-Vec3d VectorAreaOf(const ChartMesh& mesh) {
-  Vec3d sum;
-  for (const auto& t : mesh.triangles) {
-    const Vec3d& a = mesh.positions[size_t(t[0])];
-    sum = sum + Cross(mesh.positions[size_t(t[1])] - a, mesh.positions[size_t(t[2])] - a) * 0.5;
-  }
-  return sum;
-}
-
-double AreaOf(const ChartMesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles) {
-    const Vec3d& a = mesh.positions[size_t(t[0])];
-    sum += 0.5 * Length(Cross(mesh.positions[size_t(t[1])] - a, mesh.positions[size_t(t[2])] - a));
-  }
-  return sum;
 }
 
 /// What a chart keeps to besides the options: m2, m.

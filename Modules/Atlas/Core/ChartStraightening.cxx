@@ -189,14 +189,6 @@ std::array<std::vector<int32_t>, 2> CutAnew(const std::vector<int32_t>& neighbou
 }
 
 // A rectangle grows by its perimeter times the margin, and by four squares of that.
-double MostMargin(const Room& whole, const std::array<Room, 2>& parts, double fraction) {
-  const double squares = 4 * (2 - fraction);
-  const double linear = parts[0].perimeter + parts[1].perimeter - fraction * whole.perimeter;
-  const double constant = parts[0].area + parts[1].area - fraction * whole.area;
-  if (constant > 0) return -1;
-  return (std::sqrt(linear * linear - 4 * squares * constant) - linear) / (2 * squares);
-}
-
 void StraightenBorders(const StraightenedCharts& charts) {
   // How often each was cut anew, now and when a pair was tried.
   std::map<int32_t, int> cuts;

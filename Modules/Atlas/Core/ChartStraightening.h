@@ -33,15 +33,6 @@ void KeepLargestPieces(const std::vector<int32_t>& neighbours, std::vector<uint8
 std::array<std::vector<int32_t>, 2> CutAnew(const std::vector<int32_t>& neighbours,
                                             const SideBySide& charts, double mostRectangles);
 
-/// A rectangle by what it takes of a page.
-struct Room {
-  double area = 0;       ///< m2
-  double perimeter = 0;  ///< m
-};
-/// The widest margin around them, m, with which `parts` take this `fraction`, under 2, of the room
-/// of `whole` at most; negative where they do not with any.
-double MostMargin(const Room& whole, const std::array<Room, 2>& parts, double fraction);
-
 /// What StraightenBorders asks of the charts.
 struct StraightenedCharts {
   std::function<std::vector<ChartBorder>()> borders;  ///< as they are now
