@@ -59,6 +59,7 @@ class FinalGather {
   std::vector<BounceSum> Bounces(const std::vector<GatherPoint>& points, const BounceRays& rays,
                                  int64_t* cast, const ProgressCallback& progress = {}) const;
   const DirectLight& Direct() const { return direct_; }
+  const RayScene& Rays() const { return rayScene_; }
   /// The radiosity of a furnace of the brightest emitter and the lightest surface of the scene, a
   /// band at a time, W/m2: no place is brighter. Infinite where the scene has lights that points
   /// send rays to.

@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
 #include "Common/Core/Progress.h"
+#include "Radiosity/Core/ContactLines.h"
 #include "Radiosity/Core/ElementHierarchy.h"
 #include "Radiosity/Core/GatheredPoints.h"
 #include "Radiosity/Core/RefinedMesh.h"
@@ -41,8 +43,9 @@ class GatheredMesh {
   /// Asks for light in the middle of triangles that may hold more error than their corners tell;
   /// `wanted` is the relative RMS error that is.
   void ProbeMiddles(double wanted, int64_t* rays);
-  /// Cuts the triangles that hold the most of the error, along the edges of shadows where they find
-  /// one, until interpolation leaves about `wanted`; false where it does, or nothing can be cut.
+  /// Cuts the triangles that hold the most of the error, along the feet of what stands on them or
+  /// the edges of shadows where they find one, until interpolation leaves about `wanted`; false
+  /// where it does, or nothing can be cut.
   bool CutTriangles(double wanted, int64_t* rays);
   /// There are as many triangles as there may be.
   bool IsFull() const;
@@ -69,6 +72,8 @@ class GatheredMesh {
     Vec3f normal;                             ///< of the face, unit
     double change;  ///< squared difference of light, beyond scatter, (W/m2)^2
   };
+  /// Two lines across a patch that is to be cut; none where it is to be halved.
+  using CutLines = std::optional<std::array<LeafLine, 2>>;
   /// Where an edge of light enters a patch and where it leaves.
   struct Crossing {
     size_t chosen;        ///< index of the patch among those
@@ -107,10 +112,14 @@ class GatheredMesh {
   std::vector<ChosenPatch> ChoosePatches(double wanted, double* threshold);
   void Remember(const std::vector<ChosenPatch>& chosen);
   std::vector<BorderSegment> BorderOf(const std::vector<int64_t>& triangles) const;
-  std::vector<Crossing> FindCrossings(const std::vector<ChosenPatch>& chosen) const;
+  std::vector<Crossing> FindCrossings(const std::vector<ChosenPatch>& chosen,
+                                      const std::vector<CutLines>& lines) const;
   GatherPoint PlaceOf(int32_t point, const Vec3f& inside, const Vec3f& normal) const;
-  std::unordered_map<int32_t, std::array<LeafLine, 2>> FindLines(
-      const std::vector<ChosenPatch>& chosen, int64_t* rays) const;
+  void FindEdges(const std::vector<ChosenPatch>& chosen, std::vector<CutLines>* lines,
+                 int64_t* rays) const;
+  std::vector<KnownLight> KnownIn(const std::vector<int64_t>& triangles) const;
+  CutLines FindContact(const ChosenPatch& chosen, int64_t* rays) const;
+  std::vector<CutLines> FindContacts(const std::vector<ChosenPatch>& chosen, int64_t* rays) const;
 
   ElementHierarchy* hierarchy_;
   const FinalGather& gather_;

@@ -1,6 +1,8 @@
 // Which triangles of a gathered solution are cut, and where.
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 
 #include "Common/Core/Parallel.h"
@@ -29,6 +31,10 @@ constexpr double kAlike = 0.25, kThird = 0.25;
 /// other part of the patch's area it is no edge.
 constexpr double kEdgeWidth = 1. / 32, kMostOfPatch = 1. / 3;
 constexpr int kMostSteps = 8;
+/// What stands on a patch is looked for where that is so many times as bright in one place as in
+/// another. The strip along its foot is as wide as the length that rays skip: points ask for light
+/// beside it, and nothing in it is seen.
+constexpr double kContrast = 2;
 
 }  // namespace
 
@@ -132,9 +138,10 @@ std::vector<GatheredMesh::BorderSegment> GatheredMesh::BorderOf(
 // Patches on whose border light goes up in one place, down in another by about as much, and hardly
 // changes elsewhere.
 std::vector<GatheredMesh::Crossing> GatheredMesh::FindCrossings(
-    const std::vector<ChosenPatch>& chosen) const {
+    const std::vector<ChosenPatch>& chosen, const std::vector<CutLines>& lines) const {
   std::vector<Crossing> crossings;
   for (size_t i = 0; i < chosen.size(); ++i) {
+    if (lines[i]) continue;
     std::vector<BorderSegment> border = this->BorderOf(chosen[i].triangles);
     const size_t sorted = std::min<size_t>(3, border.size());
     std::partial_sort(border.begin(), border.begin() + int64_t(sorted), border.end(),
@@ -164,11 +171,11 @@ std::vector<GatheredMesh::Crossing> GatheredMesh::FindCrossings(
   return crossings;
 }
 
-// Two lines on both sides of each edge of light that crosses a chosen patch, by its index.
-std::unordered_map<int32_t, std::array<LeafLine, 2>> GatheredMesh::FindLines(
-    const std::vector<ChosenPatch>& chosen, int64_t* rays) const {
+// Two lines on both sides of each edge of light that crosses a patch for which there are none yet.
+void GatheredMesh::FindEdges(const std::vector<ChosenPatch>& chosen, std::vector<CutLines>* lines,
+                             int64_t* rays) const {
   // Where light changes on the borders; what two patches share is asked once.
-  std::vector<Crossing> crossings = this->FindCrossings(chosen);
+  std::vector<Crossing> crossings = this->FindCrossings(chosen, *lines);
   std::vector<LitSegment> segments;
   std::map<std::array<int32_t, 2>, size_t> segmentOfPoints;
   for (Crossing& crossing : crossings) {
@@ -195,7 +202,6 @@ std::unordered_map<int32_t, std::array<LeafLine, 2>> GatheredMesh::FindLines(
 
   // The line before what changes on the first segment, counter-clockwise, is the line behind it on
   // the second.
-  std::unordered_map<int32_t, std::array<LeafLine, 2>> lines;
   for (const Crossing& crossing : crossings) {
     std::array<std::array<LeafBorderPlace, 2>, 2> places;  // By segment, in its direction.
     std::array<std::array<Vec3f, 2>, 2> positions;
@@ -214,9 +220,82 @@ std::unordered_map<int32_t, std::array<LeafLine, 2>> GatheredMesh::FindLines(
         0.5 *
         double(Length(Cross(positions[1][0] - positions[0][0], positions[1][1] - positions[0][1])));
     if (strip > kMostOfPatch * crossing.area) continue;
-    lines[int32_t(crossing.chosen)] = {LeafLine{places[0][0], places[1][1]},
-                                       LeafLine{places[0][1], places[1][0]}};
+    (*lines)[crossing.chosen] = {LeafLine{places[0][0], places[1][1]},
+                                 LeafLine{places[0][1], places[1][0]}};
   }
+}
+
+// Light at the corners of triangles, and in their middle where it was asked for.
+std::vector<KnownLight> GatheredMesh::KnownIn(const std::vector<int64_t>& triangles) const {
+  std::vector<KnownLight> places;
+  std::vector<int32_t> points;
+  for (const int64_t t : triangles) {
+    const auto& corners = mesh_.PointsOfTriangles()[size_t(t)];
+    points.insert(points.end(), corners.begin(), corners.end());
+    const Middle* const middle = middleOfTriangle_[size_t(t)];
+    if (!middle) continue;
+    KnownLight place{{}, middle->irradiance};
+    for (const int32_t p : corners) place.position += mesh_.Points()[size_t(p)].position / 3.f;
+    places.push_back(place);
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  for (const int32_t p : points) {
+    places.push_back({mesh_.Points()[size_t(p)].position, irradiance_[size_t(p)]});
+  }
+  return places;
+}
+
+// Before and behind the foot of what stands on a patch, where that tells light from dark.
+GatheredMesh::CutLines GatheredMesh::FindContact(const ChosenPatch& chosen, int64_t* rays) const {
+  // Whether there is light and dark.
+  const std::vector<KnownLight> places = this->KnownIn(chosen.triangles);
+  double least = std::numeric_limits<double>::max(), most = 0;
+  for (const KnownLight& place : places) {
+    const double light = std::sqrt(SquaredNorm(place.irradiance));
+    least = std::min(least, light);
+    most = std::max(most, light);
+  }
+  if (!(most > kContrast * least)) return {};
+
+  // What stands there.
+  const LeafTriangle& leaf = mesh_.Triangles()[size_t(chosen.triangles[0])];
+  const Vec3f front = hierarchy_->GetScene().mesh.FrontNormal(leaf.face);
+  const std::vector<ContactLine> lines =
+      FindContactLines(gather_.Rays(), hierarchy_->Leaves().Corners(chosen.patch),
+                       leaf.side == kFront ? front : -front, rays);
+  const ContactLine* const line = TellingLine(lines, places);
+  if (!line) return {};
+
+  // Where both lines enter and leave; one may pass the patch by.
+  std::vector<LeafLine> across;
+  const std::vector<BorderSegment> border = this->BorderOf(chosen.triangles);
+  for (const double offset : {-0.5 * double(skip_), 0.5 * double(skip_)}) {
+    LeafLine ends;
+    size_t found = 0;
+    for (const BorderSegment& s : border) {
+      std::array<double, 2> height;
+      for (size_t k = 0; k < 2; ++k) {
+        const Vec3f& position = mesh_.Points()[size_t(s.points[k])].position;
+        height[k] = double(Dot(line->across, position - line->position)) - offset;
+      }
+      if ((height[0] > 0) == (height[1] > 0) || found == 2) continue;
+      ends[found++] = {s.vertices[0], s.vertices[1], height[0] / (height[0] - height[1])};
+    }
+    if (found == 2) across.push_back(ends);
+  }
+  if (across.empty()) return {};
+  return std::array<LeafLine, 2>{across.front(), across.back()};
+}
+
+std::vector<GatheredMesh::CutLines> GatheredMesh::FindContacts(
+    const std::vector<ChosenPatch>& chosen, int64_t* rays) const {
+  std::vector<CutLines> lines(chosen.size());
+  std::vector<int64_t> cast(chosen.size(), 0);
+  ParallelForEach(int64_t(chosen.size()), 16, [&](int64_t i) {
+    lines[size_t(i)] = this->FindContact(chosen[size_t(i)], &cast[size_t(i)]);
+  });
+  for (const int64_t c : cast) *rays += c;
   return lines;
 }
 
@@ -225,15 +304,15 @@ bool GatheredMesh::CutTriangles(double wanted, int64_t* rays) {
   const std::vector<ChosenPatch> chosen = this->ChoosePatches(wanted, &threshold);
   this->Remember(chosen);
   if (chosen.empty()) return false;
-  const auto lines = this->FindLines(chosen, rays);
+  std::vector<CutLines> lines = this->FindContacts(chosen, rays);
+  this->FindEdges(chosen, &lines, rays);
 
-  // Along an edge of light where there is one, else in halves.
+  // Along a foot or an edge of light where there is one, else in halves.
   LeafMesh& leaves = hierarchy_->Leaves();
   std::vector<std::pair<int32_t, int32_t>> made;
   for (size_t i = 0; i < chosen.size(); ++i) {
-    const auto line = lines.find(int32_t(i));
-    if (line != lines.end()) {
-      for (const int32_t part : leaves.SplitAlong(chosen[i].patch, line->second)) {
+    if (lines[i]) {
+      for (const int32_t part : leaves.SplitAlong(chosen[i].patch, *lines[i])) {
         made.push_back({part, int32_t(i)});
       }
       continue;
