@@ -140,6 +140,7 @@ void SolveArguments::Check() const {
   RequireOptionsOfMethod();
   lights.Check();
   RequireOptionsOfOutputs();
+  RequireOptionsOfAtlas();
   if (probe.empty() != probeOutput.empty()) {
     throw CLI::ValidationError("--probe", "--probe and --probe-output belong together");
   }
@@ -151,6 +152,7 @@ void SolveArguments::Check() const {
   files.AddInput("--probe", probe);
   if (solver.resume != solver.saveState) files.AddInput("--resume", solver.resume);
   files.AddInput("--environment", lights.environment);
+  files.AddInput("--atlas", atlasFile);
   if (!lightMap.empty() && !IsPolyDataFileName(lightMap)) {
     throw CLI::ValidationError("--lightmap", "the name has to end in .vtp or .vtpc");
   }
@@ -237,10 +239,30 @@ void SolveArguments::RequireOptionsOfMethod() const {
   }
 }
 
+void SolveArguments::RequireOptionsOfAtlas() const {
+  if (command_->count("--atlas") == 0) return;
+  if (!IsPolyDataFileName(atlasFile)) {
+    throw CLI::ValidationError("--atlas", "the name has to end in .vtp or .vtpc");
+  }
+  for (const char* option : {"--pages", "--page-size", "--texel-size", "--padding", "--mip-levels",
+                             "--stretch", "--texel-density"}) {
+    if (command_->count(option) == 0) continue;
+    throw CLI::ValidationError(option,
+                               "is decided by the atlas of --atlas; leave out one of the two");
+  }
+  for (const char* option : {"--introduced", "--represent"}) {
+    if (command_->count(option) == 0) continue;
+    throw CLI::ValidationError(option,
+                               "chooses surfaces, and the atlas of --atlas is of all of them; "
+                               "leave out one of the two");
+  }
+}
+
 int SolveArguments::MostPages() const {
-  constexpr int kMostOfTexelSize = 256, kMostChecked = 4096;
+  constexpr int kMostUsual = 256, kMostChecked = 4096;
   if (lightMap.empty()) return 1;
-  return std::min(kMostChecked, atlas.texelSize > 0 ? kMostOfTexelSize : atlas.pages);
+  const bool isOpen = atlas.texelSize > 0 || !atlasFile.empty();
+  return isOpen ? kMostUsual : std::min(kMostChecked, atlas.pages);
 }
 
 RadiosityRunOptions SolveArguments::RunOptions() const {
@@ -254,6 +276,7 @@ RadiosityRunOptions SolveArguments::RunOptions() const {
   options.solver = solver;
   options.timeLimit = time;
   if (!lightMap.empty()) options.atlas = atlas;
+  options.atlasFile = atlasFile;
   options.introducedTriangles = introducedTriangles;
   options.splitSurfaces = splitSurfaces;
   options.representations = representations;

@@ -38,6 +38,7 @@ struct SolveArguments {
   std::optional<LitMeshSimplificationOptions> simplification;
   std::vector<PageFormat> pageFormats{PageFormat::Hdr};
   AtlasOptions atlas;
+  std::string atlasFile;  ///< that the light map is drawn on, in place of one by `atlas`
   LitModelOptions model;  ///< of glTF and HTML, without its tone
   std::optional<int64_t> introducedTriangles;
   bool splitSurfaces = false;
@@ -73,6 +74,8 @@ struct SolveArguments {
   int MostPages() const;
   /// Throws CLI::ValidationError where an option was given that is another method's.
   void RequireOptionsOfMethod() const;
+  /// Throws CLI::ValidationError where an option was given that an atlas of a file decides.
+  void RequireOptionsOfAtlas() const;
   /// Throws CLI::ValidationError where an option was given of which no output would have anything.
   void RequireOptionsOfOutputs() const;
 

@@ -186,6 +186,10 @@ void SolveArguments::AddOutputsTo(CLI::App* command) {
       "--lightmap", lightMap, "Mesh with texture coordinates, .vtp or .vtpc, its pages beside it");
   for (CLI::Option* option : AddAtlasOptions(command, &atlas)) option->needs(map);
   AddTexelDensity(command, map, &atlas);
+  command
+      ->add_option("--atlas", atlasFile,
+                   "Light map: drawn on this mesh of `lambert atlas` or of an earlier light map")
+      ->needs(map);
   AddRepresentationOptions(command, map, this);
   AddMapOutputOptions(command, map, this);
   command->add_flag("--both-sides", bothSides, "PLY: keep both lit sides of a face");

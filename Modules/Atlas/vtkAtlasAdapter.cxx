@@ -17,15 +17,32 @@
 #include "vtkValueArrays.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <unordered_map>
 
 namespace lambert {
 namespace {
 using Names = vtkRadiosityArrays;
 
+constexpr const char* kSource = "the output of vtkRadiosityAtlas or of lambert atlas";
+
 vtkDataArray* RequireArray(vtkFieldData* data, const char* name, int components, size_t count) {
-  return lambert::RequireArray(data, name, components, count, "mesh",
-                               "the output of vtkRadiosityAtlas");
+  return lambert::RequireArray(data, name, components, count, "mesh", kSource);
+}
+
+double RequireNumber(vtkFieldData* fields, const char* name, double least, double most) {
+  const double number = RequireArray(fields, name, 1, 1)->GetComponent(0, 0);
+  if (!(number >= least && number <= most)) {
+    throw Error(std::string("The number in the array ") + name + " is none of an atlas; it takes " +
+                kSource + " as it is.");
+  }
+  return number;
+}
+
+Error OutOfOrder(size_t face) {
+  return Error("The charts of the mesh are out of order at face " + std::to_string(face) +
+               "; it takes " + kSource + " as it is.");
 }
 
 /// Charts and their pages. Charts are numbered by their first faces.
@@ -36,16 +53,26 @@ void ReadCharts(vtkCellData* cells, size_t faces, RadiosityAtlas* atlas) {
       NumbersFromArray<int32_t>(RequireArray(cells, Names::PageId(), 1, faces));
   for (size_t face = 0; face < faces; ++face) {
     const int32_t count = static_cast<int32_t>(atlas->set.charts.size());
+    if (charts[face] == -1) {
+      throw Error("Face " + std::to_string(face) +
+                  " of the mesh is lit at its points and has no chart; it takes " + kSource + ".");
+    }
     if (charts[face] < 0 || charts[face] > count || pages[face] < 0) {
-      throw Error("The charts of the mesh are out of order at face " + std::to_string(face) +
-                  "; it takes the output of vtkRadiosityAtlas as it is.");
+      throw OutOfOrder(face);
     }
     if (charts[face] == count) {
       atlas->set.charts.emplace_back();
       atlas->pageOfChart.push_back(pages[face]);
       atlas->pages = std::max(atlas->pages, pages[face] + 1);
+    } else if (pages[face] != atlas->pageOfChart[static_cast<size_t>(charts[face])]) {
+      throw OutOfOrder(face);
     }
     ++atlas->set.charts[static_cast<size_t>(charts[face])].faceCount;
+  }
+
+  if (atlas->pages > static_cast<int>(atlas->set.charts.size())) {
+    throw Error("The mesh has more pages than charts; it takes " + std::string(kSource) +
+                " as it is.");
   }
 
   // The faces of each, side by side.
@@ -60,6 +87,49 @@ void ReadCharts(vtkCellData* cells, size_t faces, RadiosityAtlas* atlas) {
   for (size_t face = 0; face < faces; ++face) {
     atlas->set.faces[static_cast<size_t>(next[static_cast<size_t>(charts[face])]++)] =
         static_cast<int32_t>(face);
+  }
+}
+
+/// By face: its points, numbered within their chart.
+void NumberCorners(const TriangleMesh& mesh, ChartSet* set) {
+  set->corners.resize(mesh.triangles.size());
+  std::unordered_map<int32_t, int32_t> numbers;
+  for (Chart& chart : set->charts) {
+    numbers.clear();
+    for (const int32_t face : set->FacesOf(chart)) {
+      const size_t f = static_cast<size_t>(face);
+      for (size_t c = 0; c < 3; ++c) {
+        set->corners[f][c] =
+            numbers.try_emplace(mesh.triangles[f][c], static_cast<int32_t>(numbers.size()))
+                .first->second;
+      }
+    }
+    chart.cornerCount = static_cast<int32_t>(numbers.size());
+  }
+}
+
+/// Where the corners of the faces lie on their pages, and what of these they cover.
+void ReadPlaces(vtkPointData* points, const TriangleMesh& mesh, RadiosityAtlas* atlas) {
+  const std::vector<Vec2f> coords = TuplesFromArray<Vec2f>(
+      RequireArray(points, Names::LightMapTCoords(), 2, mesh.positions.size()),
+      Names::LightMapTCoords());
+  const auto isOnPage = [](const Vec2f& p) { return p.x >= 0 && p.x <= 1 && p.y >= 0 && p.y <= 1; };
+  double area = 0;
+  for (const std::array<int32_t, 3>& triangle : mesh.triangles) {
+    std::array<Vec2f, 3> places;
+    for (size_t c = 0; c < 3; ++c) {
+      places[c] = coords[static_cast<size_t>(triangle[c])];
+      if (!isOnPage(places[c])) {
+        throw Error("Point " + std::to_string(triangle[c]) +
+                    " of the mesh lies on no page; it takes " + kSource + " as it is.");
+      }
+    }
+    const Vec2d u(places[1] - places[0]), v(places[2] - places[0]);
+    area += 0.5 * std::abs(u.x * v.y - u.y * v.x);
+    atlas->textureCoords.push_back(places);
+  }
+  if (atlas->pages > 0) {
+    atlas->utilisation = area / atlas->pages;
   }
 }
 
@@ -82,6 +152,38 @@ void JoinPoints(const std::vector<int64_t>& shared, TriangleMesh* mesh) {
   mesh->uvs.clear();
 }
 
+/// The atlas that a mesh carries, and the mesh as it lies in it.
+RadiosityAtlas ReadAtlas(vtkPolyData* input, TriangleMesh* mesh) {
+  constexpr double kLeastPage = 16, kMostPage = 16384, kMostPadding = 64;
+  *mesh = TriangleMeshFromPolyData(input);
+  vtkFieldData* fields = input->GetFieldData();
+  RadiosityAtlas atlas;
+  atlas.pageSize =
+      static_cast<int>(RequireNumber(fields, Names::AtlasPageSize(), kLeastPage, kMostPage));
+  atlas.padding = static_cast<int>(RequireNumber(fields, Names::AtlasPadding(), 0, kMostPadding));
+  atlas.texelSize = RequireNumber(fields, Names::AtlasTexelSize(), 0,
+                                  static_cast<double>(std::numeric_limits<float>::max()));
+  ReadCharts(input->GetCellData(), mesh->triangles.size(), &atlas);
+  atlas.set.places.resize(mesh->triangles.size());
+  NumberCorners(*mesh, &atlas.set);
+  ReadPlaces(input->GetPointData(), *mesh, &atlas);
+  return atlas;
+}
+
+///@{ What the faces of an atlas show, where it tells.
+bool HasSides(vtkPolyData* input) { return input->GetCellData()->HasArray(Names::Side()) != 0; }
+
+std::vector<int64_t> InputFaces(vtkPolyData* input) {
+  return NumbersFromArray<int64_t>(RequireArray(input->GetCellData(), Names::InputFaceId(), 1,
+                                                static_cast<size_t>(input->GetNumberOfCells())));
+}
+
+std::vector<uint8_t> Sides(vtkPolyData* input) {
+  return SidesFromArray(RequireArray(input->GetCellData(), Names::Side(), 1,
+                                     static_cast<size_t>(input->GetNumberOfCells())));
+}
+///@}
+
 /// What texture coordinates are of.
 void AddAtlasFields(const RadiosityAtlas& atlas, vtkFieldData* fields) {
   fields->AddArray(
@@ -95,40 +197,28 @@ void AddAtlasFields(const RadiosityAtlas& atlas, vtkFieldData* fields) {
 
 RadiosityAtlas AtlasFromPolyData(vtkPolyData* input, TriangleMesh* mesh,
                                  RadiositySolution* solution) {
-  *mesh = TriangleMeshFromPolyData(input);
-  const size_t faces = mesh->triangles.size(), points = mesh->positions.size();
-  vtkFieldData* fields = input->GetFieldData();
-  RadiosityAtlas atlas;
-  atlas.pageSize =
-      static_cast<int>(RequireArray(fields, Names::AtlasPageSize(), 1, 1)->GetComponent(0, 0));
-  atlas.padding =
-      static_cast<int>(RequireArray(fields, Names::AtlasPadding(), 1, 1)->GetComponent(0, 0));
-  atlas.texelSize = RequireArray(fields, Names::AtlasTexelSize(), 1, 1)->GetComponent(0, 0);
-  ReadCharts(input->GetCellData(), faces, &atlas);
-  atlas.set.places.resize(faces);
-
-  // Places of the corners, then the points that they share.
-  const std::vector<Vec2f> coords = TuplesFromArray<Vec2f>(
-      RequireArray(input->GetPointData(), Names::LightMapTCoords(), 2, points),
-      Names::LightMapTCoords());
-  for (const std::array<int32_t, 3>& triangle : mesh->triangles) {
-    atlas.textureCoords.push_back({coords[static_cast<size_t>(triangle[0])],
-                                   coords[static_cast<size_t>(triangle[1])],
-                                   coords[static_cast<size_t>(triangle[2])]});
-  }
-  JoinPoints(NumbersFromArray<int64_t>(
-                 RequireArray(input->GetPointData(), Names::SharedPointId(), 1, points)),
+  RadiosityAtlas atlas = ReadAtlas(input, mesh);
+  JoinPoints(NumbersFromArray<int64_t>(RequireArray(input->GetPointData(), Names::SharedPointId(),
+                                                    1, mesh->positions.size())),
              mesh);
-
-  // What they show.
-  vtkCellData* cells = input->GetCellData();
-  if (cells->HasArray(Names::Side())) {
-    *solution = OntoShownSides(
-        std::move(*solution),
-        NumbersFromArray<int64_t>(RequireArray(cells, Names::InputFaceId(), 1, faces)),
-        SidesFromArray(RequireArray(cells, Names::Side(), 1, faces)));
+  if (HasSides(input)) {
+    *solution = OntoShownSides(std::move(*solution), InputFaces(input), Sides(input));
   }
   return atlas;
+}
+
+StoredAtlas StoredAtlasFromPolyData(vtkPolyData* input) {
+  StoredAtlas stored;
+  TriangleMesh mesh;
+  stored.atlas = ReadAtlas(input, &mesh);
+  for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
+    stored.corners.push_back({mesh.Corner(face, 0), mesh.Corner(face, 1), mesh.Corner(face, 2)});
+  }
+  if (HasSides(input)) {
+    stored.inputFace = InputFaces(input);
+    stored.side = Sides(input);
+  }
+  return stored;
 }
 
 void PagesFromLightMap(const LightMap& map, vtkMultiBlockDataSet* output) {

@@ -4,6 +4,7 @@
 
 #include "Atlas/Core/RadiosityAtlas.h"
 #include "Atlas/Core/ShownSides.h"
+#include "Atlas/Core/StoredAtlas.h"
 #include "Atlas/Core/SurfaceRepresentation.h"
 #include "Scene/Core/Scene.h"
 #include "lambertAtlasModule.h"
@@ -24,6 +25,10 @@ LAMBERTATLAS_EXPORT void PolyDataFromAtlas(const RadiosityAtlas& atlas, Scene sc
 /// array is missing or of the wrong shape.
 LAMBERTATLAS_EXPORT RadiosityAtlas AtlasFromPolyData(vtkPolyData* input, TriangleMesh* mesh,
                                                      RadiositySolution* solution);
+
+/// The same to be kept: the atlas whole, but for the places of charts in the plane, with what its
+/// faces are of. Throws as above.
+LAMBERTATLAS_EXPORT StoredAtlas StoredAtlasFromPolyData(vtkPolyData* input);
 
 /// Fills `output` with a vtkImageData a page, its lowest row first: point scalars Irradiance, 3
 /// float, W/m2.

@@ -1,6 +1,7 @@
 #include "RadiosityRun.h"
 
 #include "Atlas/Core/TexelDensity.h"
+#include "AtlasFile.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Timer.h"
 #include "Scene/Core/SceneLimits.h"
@@ -95,11 +96,18 @@ void RadiosityRun::AddStage(const std::string& name, double seconds) {
 }
 
 void RadiosityRun::Load(const ProgressCallback& progress) {
-  // Files to one clean mesh.
+  // An atlas that it is to be drawn on.
   Timer timer;
+  std::vector<std::string> piecesOfAtlas;
+  if (!this->options_.atlasFile.empty()) {
+    this->storedAtlas_ = ReadAtlas(this->options_.atlasFile, &piecesOfAtlas);
+  }
+
+  // Files to one clean mesh.
   this->scene_ = LoadScene(this->options_.files, this->options_.reader, this->options_.cleaning,
                            this->options_.settings, &this->reading_, &this->cleaning_, progress);
-
+  this->reading_.companions.insert(this->reading_.companions.end(), piecesOfAtlas.begin(),
+                                   piecesOfAtlas.end());
   RequireMaterialsAndParts(this->scene_, this->options_.representations);
   this->AddStage("load", timer.Seconds());
 }
@@ -126,6 +134,11 @@ void RadiosityRun::Cluster(const ProgressCallback& progress) {
                              &this->clustering_, progress);
   RequireSurfaces(static_cast<int64_t>(this->tree_.surfaceRoots.size()),
                   this->options_.representations);
+  if (this->storedAtlas_ && !IsAtlasOf(*this->storedAtlas_, this->scene_.mesh, this->tree_)) {
+    throw lambert::Error("The atlas in '" + this->options_.atlasFile +
+                         "' is of another scene, or of this one read by other options; lay this "
+                         "one flat by lambert atlas with the same options of reading.");
+  }
   this->AddStage("cluster", timer.Seconds());
 }
 
@@ -226,25 +239,48 @@ const RadiositySolution& RadiosityRun::SolutionAsShown() {
   return *this->solutionAsShown_;
 }
 
+void RadiosityRun::Show(std::optional<ShownSides> sides) {
+  this->shown_ = std::move(sides);
+  this->solutionAsShown_.reset();
+  if (this->shown_) {
+    this->shownScene_ = this->scene_;
+    this->shownScene_.mesh = this->shown_->mesh;
+  }
+}
+
+void RadiosityRun::TakeStoredAtlas() {
+  this->Show(
+      ShowStoredSides(this->scene_.mesh, this->tree_, this->solution_, &*this->storedAtlas_));
+  this->atlas_ = std::move(this->storedAtlas_->atlas);
+  this->storedAtlas_.reset();
+}
+
 void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
   if (this->options_.atlas &&
       (this->options_.introducedTriangles || !this->options_.representations.IsEmpty())) {
     this->Represent(progress);
     return;
   }
-  this->shown_ = ShowBothSides(this->scene_.mesh, this->tree_, this->solution_);
-  this->solutionAsShown_.reset();
-  if (this->shown_) {
-    this->shownScene_ = this->scene_;
-    this->shownScene_.mesh = this->shown_->mesh;
+
+  // Where its surfaces lie.
+  const bool isLaid = this->storedAtlas_.has_value();
+  if (isLaid) {
+    this->TakeStoredAtlas();
+  } else {
+    this->Show(ShowBothSides(this->scene_.mesh, this->tree_, this->solution_));
+    this->LayFlat([&](double fraction, const char* stage) {
+      return Report(progress, 0.7 * fraction, stage);
+    });
   }
-  this->LayFlat(
-      [&](double fraction, const char* stage) { return Report(progress, 0.7 * fraction, stage); });
+
+  // Their light.
   Timer timer;
   const RadiositySolution& solution = this->SolutionAsShown();
-  this->atlas_ = WithTexelDensity(
-      this->LaidScene().mesh, std::move(this->atlas_), solution, *this->options_.atlas,
-      [&](double, const char* stage) { return Report(progress, 0.7, stage); });
+  if (!isLaid) {
+    this->atlas_ = WithTexelDensity(
+        this->LaidScene().mesh, std::move(this->atlas_), solution, *this->options_.atlas,
+        [&](double, const char* stage) { return Report(progress, 0.7, stage); });
+  }
   this->lightMap_ = MakeLightMap(this->LaidScene().mesh, this->atlas_, solution,
                                  [&](double fraction, const char* stage) {
                                    return Report(progress, 0.7 + 0.3 * fraction, stage);

@@ -5,6 +5,7 @@
 #include "Atlas/Core/LightMap.h"
 #include "Atlas/Core/LitMeshSimplification.h"
 #include "Atlas/Core/ShownSides.h"
+#include "Atlas/Core/StoredAtlas.h"
 #include "Atlas/Core/SurfaceRepresentation.h"
 #include "Atlas/Core/WantedRepresentations.h"
 #include "Clustering/Core/FaceClustering.h"
@@ -34,6 +35,8 @@ struct RadiosityRunOptions {
   SolveMethodOptions method;
   HierarchicalRadiosityOptions solver;  ///< of the method Hierarchical
   std::optional<AtlasOptions> atlas;    ///< of a light map, where one is wanted
+  /// Atlas that the light map is drawn on, in place of one by `atlas`; none: empty.
+  std::string atlasFile;
   /// Triangles that refinement may add to the surfaces that their points light; none: all surfaces
   /// are in the light map but those of `representations`.
   std::optional<int64_t> introducedTriangles;
@@ -50,14 +53,16 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   explicit RadiosityRun(const RadiosityRunOptions& options);
   ~RadiosityRun();
 
-  /// Reads the files, changes materials, cleans up. Throws Error, Cancelled.
+  /// Reads the files, that of an atlas first, changes materials, cleans up. Throws Error,
+  /// Cancelled.
   void Load(const ProgressCallback& progress = {});
   /// Adds lights to those of the files.
   void AddLights(const std::vector<Light>& lights);
   /// Throws Error, before any work, for a scene without light.
   void RequireLight() const;
   /// Builds the face-cluster tree, for the method Hierarchical and for light maps alone. Throws
-  /// Error where a surface is to be represented that is none, Cancelled.
+  /// Error where a surface is to be represented that is none, and where the atlas of the options is
+  /// of another scene, Cancelled.
   void Cluster(const ProgressCallback& progress = {});
   /// Solves until the request is met, until another iteration and the output would not fit into the
   /// time limit, or until `interrupted` says so; all end at the border of an iteration. `observer`
@@ -68,7 +73,8 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   /// Lays the clustered scene flat, both sides of sheets where it is to be drawn. Throws Error
   /// where the options gave no atlas or charts do not fit, Cancelled.
   void LayFlat(const ProgressCallback& progress = {});
-  /// Lays the scene flat and draws the solution into its texels. Throws as LayFlat does.
+  /// Lays the scene flat, unless the options have its atlas, and draws the solution into its
+  /// texels. Throws as LayFlat does.
   void DrawLightMap(const ProgressCallback& progress = {});
   /// Makes what viewers draw: each surface in its representation where those are chosen, else all
   /// by the light map where there is one, else by the points. The camera is `camera`, else that of
@@ -116,6 +122,10 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   void AddStage(const std::string& name, double seconds);
 
  private:
+  /// What a light map shows of the scene.
+  void Show(std::optional<ShownSides> sides);
+  /// Takes the atlas of the options, and the sides that it shows.
+  void TakeStoredAtlas();
   /// Chooses how each surface shows its light, and draws the light map of those that it takes.
   void Represent(const ProgressCallback& progress);
   /// On the faces that show its sides, made once.
@@ -137,6 +147,7 @@ class LAMBERTENGINE_EXPORT RadiosityRun {
   std::optional<ShownSides> shown_;
   Scene shownScene_;
   std::optional<RadiositySolution> solutionAsShown_;
+  std::optional<StoredAtlas> storedAtlas_;  ///< until it is taken
   RadiosityAtlas atlas_;
   std::optional<LightMap> lightMap_;
   std::optional<RepresentedScene> represented_;

@@ -3,6 +3,7 @@
 #ifndef vtkStoredPieces_h
 #define vtkStoredPieces_h
 
+#include "lambertSceneModule.h"
 #include "vtkSmartPointer.h"
 
 #include <string>
@@ -18,14 +19,14 @@ struct StoredPiece {
 };
 
 /// True for names that end in .vtp or .vtpc, in any case.
-bool IsStoredScene(const std::string& file);
+LAMBERTSCENE_EXPORT bool IsStoredScene(const std::string& file);
 
 /// The pieces of a VTPC in its order; a VTP is its own. Throws Error, one clear sentence, where the
 /// collection is damaged or names no piece, or one that is not there or no poly data.
-std::vector<StoredPiece> FindStoredPieces(const std::string& file);
+LAMBERTSCENE_EXPORT std::vector<StoredPiece> FindStoredPieces(const std::string& file);
 
 /// Throws Error, one clear sentence, where the file of the piece is damaged.
-vtkSmartPointer<vtkPolyData> ReadStoredPiece(const StoredPiece& piece);
+LAMBERTSCENE_EXPORT vtkSmartPointer<vtkPolyData> ReadStoredPiece(const StoredPiece& piece);
 }  // namespace lambert
 
 #endif

@@ -135,15 +135,10 @@ std::vector<bool> FindSheets(const TriangleMesh& mesh, const ClusterTree& tree,
   return isSheet;
 }
 
-std::optional<ShownSides> ShowBothSides(const TriangleMesh& mesh, const ClusterTree& tree,
-                                        const RadiositySolution& solution) {
-  RequireSameFaces(mesh, solution);
-  const std::vector<bool> isSheet = FindSheets(mesh, tree, solution);
-  if (std::find(isSheet.begin(), isSheet.end(), true) == isSheet.end()) return {};
-
-  // Brighter sides, then the others of sheets.
+ShownSides ShowSides(const TriangleMesh& mesh, const ClusterTree& tree,
+                     const SidesOfSurfaces& sides) {
+  // First sides, then the others of sheets.
   ShownSides shown;
-  const std::vector<uint8_t> brighter = BrighterSidesOfSurfaces(mesh, solution);
   const auto show = [&](size_t surface, uint8_t side) {
     const ClusterNode& root = tree.nodes[size_t(tree.surfaceRoots[surface])];
     AppendTree(tree, surface, int32_t(shown.inputFace.size()), &shown.tree);
@@ -153,9 +148,9 @@ std::optional<ShownSides> ShowBothSides(const TriangleMesh& mesh, const ClusterT
     }
     shown.inputSurface.push_back(int32_t(surface));
   };
-  for (size_t s = 0; s < isSheet.size(); ++s) show(s, brighter[s]);
-  for (size_t s = 0; s < isSheet.size(); ++s) {
-    if (isSheet[s]) show(s, 1 - brighter[s]);
+  for (size_t s = 0; s < sides.first.size(); ++s) show(s, sides.first[s]);
+  for (size_t s = 0; s < sides.first.size(); ++s) {
+    if (sides.isSheet[s]) show(s, 1 - sides.first[s]);
   }
 
   // Each towards the side that it shows.
@@ -179,6 +174,14 @@ std::optional<ShownSides> ShowBothSides(const TriangleMesh& mesh, const ClusterT
     if (!shown.mesh.Emits(int64_t(face), kFront)) shown.mesh.emittance[face] = Spectrum();
   }
   return shown;
+}
+
+std::optional<ShownSides> ShowBothSides(const TriangleMesh& mesh, const ClusterTree& tree,
+                                        const RadiositySolution& solution) {
+  RequireSameFaces(mesh, solution);
+  const std::vector<bool> isSheet = FindSheets(mesh, tree, solution);
+  if (std::find(isSheet.begin(), isSheet.end(), true) == isSheet.end()) return {};
+  return ShowSides(mesh, tree, {BrighterSidesOfSurfaces(mesh, solution), isSheet});
 }
 
 RadiositySolution OntoShownSides(RadiositySolution solution, const std::vector<int64_t>& inputFace,

@@ -40,6 +40,14 @@ struct ShownSides {
   std::vector<int64_t> inputPoint;    ///< by point: of the solved mesh
 };
 
+/// Which side of each surface shows, and whether the other one does, too.
+struct SidesOfSurfaces {
+  std::vector<uint8_t> first;
+  std::vector<bool> isSheet;
+};
+ShownSides ShowSides(const TriangleMesh& mesh, const ClusterTree& tree,
+                     const SidesOfSurfaces& sides);
+
 /// Nothing where there are no sheets: the mesh then does as it is. `mesh` is in the order of
 /// `tree`. Throws Error where the solution is not of this mesh.
 std::optional<ShownSides> ShowBothSides(const TriangleMesh& mesh, const ClusterTree& tree,
