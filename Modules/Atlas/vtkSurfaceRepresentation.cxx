@@ -24,6 +24,15 @@ struct vtkSurfaceRepresentation::Settings {
   lambert::WantedRepresentations Wanted;
 };
 
+/// What the inputs say, their time stamps, and what has been made of them.
+struct vtkSurfaceRepresentation::Kept {
+  vtkMTimeType MeshTime = 0, TreeTime = 0, SolutionTime = 0;
+  lambert::Scene Scene;
+  lambert::ClusterTree Tree;
+  lambert::RadiositySolution Solution;
+  std::unique_ptr<lambert::KeptRepresentation> Representation;
+};
+
 namespace {
 constexpr const char* kChoice = "A representation is AUTOMATIC, POINTS or LIGHT_MAP";
 
@@ -54,7 +63,8 @@ void PrintWanted(ostream& os, vtkIndent indent, const char* sort,
 
 vtkStandardNewMacro(vtkSurfaceRepresentation);
 
-vtkSurfaceRepresentation::vtkSurfaceRepresentation() : Options(std::make_unique<Settings>()) {
+vtkSurfaceRepresentation::vtkSurfaceRepresentation()
+    : Options(std::make_unique<Settings>()), Last(std::make_unique<Kept>()) {
   this->SetNumberOfInputPorts(3);
   this->SetNumberOfOutputPorts(3);
 }
@@ -140,18 +150,44 @@ void FillCosts(const std::vector<lambert::SurfaceCost>& surfaces, vtkTable* tabl
 }
 }  // namespace
 
+void vtkSurfaceRepresentation::TakeIn(vtkPolyData* mesh, vtkTable* tree, vtkPolyData* solution) {
+  if (this->Last->Representation && this->Last->MeshTime == mesh->GetMTime() &&
+      this->Last->TreeTime == tree->GetMTime() &&
+      this->Last->SolutionTime == solution->GetMTime()) {
+    return;
+  }
+  this->Last = std::make_unique<Kept>();
+  Kept& last = *this->Last;
+  last.Scene = lambert::SceneFromPolyData(mesh);
+  last.Tree = lambert::ClusterTreeFromTable(tree);
+  last.Solution = lambert::SolutionFromPolyData(solution);
+  last.Representation =
+      std::make_unique<lambert::KeptRepresentation>(last.Scene.mesh, last.Tree, last.Solution);
+  last.MeshTime = mesh->GetMTime();
+  last.TreeTime = tree->GetMTime();
+  last.SolutionTime = solution->GetMTime();
+  ++this->NumberOfReadings;
+}
+
 int vtkSurfaceRepresentation::RequestData(vtkInformation*, vtkInformationVector** inputs,
                                           vtkInformationVector* outputs) {
   return lambert::RunCore(this, [&](const lambert::ProgressCallback& progress) {
-    lambert::Scene scene = lambert::SceneFromPolyData(vtkPolyData::GetData(inputs[0]));
-    const lambert::ClusterTree tree = lambert::ClusterTreeFromTable(vtkTable::GetData(inputs[1]));
+    // What is wanted of the surfaces.
+    this->TakeIn(vtkPolyData::GetData(inputs[0]), vtkTable::GetData(inputs[1]),
+                 vtkPolyData::GetData(inputs[2]));
+    const Kept& last = *this->Last;
     lambert::RepresentationOptions choice = this->Options->Choice;
-    choice.wanted = lambert::RepresentationsOfSurfaces(scene, tree, this->Options->Wanted,
+    choice.wanted = lambert::RepresentationsOfSurfaces(last.Scene, last.Tree, this->Options->Wanted,
                                                        lambert::Representation::Automatic);
-    const lambert::RepresentedScene represented = lambert::RepresentSurfaces(
-        scene.mesh, tree, lambert::SolutionFromPolyData(vtkPolyData::GetData(inputs[2])), choice,
-        this->Options->Atlas, progress);
-    lambert::PolyDataFromRepresentedScene(represented, std::move(scene),
+
+    // Each in its representation, as far as it is not that of the last run.
+    const auto before = last.Representation->HowOften();
+    last.Representation->Represent(choice, this->Options->Atlas, progress);
+    const auto& after = last.Representation->HowOften();
+    this->NumberOfSegmentations += after.segmentations - before.segmentations;
+    this->NumberOfPackings += after.packings - before.packings;
+    const lambert::RepresentedScene& represented = last.Representation->Scene();
+    lambert::PolyDataFromRepresentedScene(represented, last.Scene,
                                           vtkPolyData::GetData(outputs, 0));
     lambert::PagesFromLightMap(represented.map, vtkMultiBlockDataSet::GetData(outputs, 1));
     FillCosts(represented.surfaces, vtkTable::GetData(outputs, 2));

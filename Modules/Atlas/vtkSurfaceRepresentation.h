@@ -14,7 +14,9 @@
  * there; -1 where there is none), `MapError` (relative RMS of irradiance; -1 outside the light
  * map), `Surface` and `Side`: a sheet that is lit on both sides has a row for each, a surface that
  * is cut one for each part. With sheets the faces of port 0 then have `Side`, too, and are wound
- * towards it.
+ * towards it. What is still valid is not made again: other options leave what the inputs say,
+ * another page size, padding or texel size packs the same charts anew, and what leaves every
+ * surface as it was shown leaves charts and light.
  */
 #ifndef vtkSurfaceRepresentation_h
 #define vtkSurfaceRepresentation_h
@@ -24,6 +26,8 @@
 
 #include <memory>  // for the options
 #include <string>  // for names
+
+class vtkTable;
 
 class LAMBERTATLAS_EXPORT vtkSurfaceRepresentation : public vtkPolyDataAlgorithm {
  public:
@@ -79,6 +83,13 @@ class LAMBERTATLAS_EXPORT vtkSurfaceRepresentation : public vtkPolyDataAlgorithm
   }
   ///@}
 
+  ///@{ How often the inputs were taken in, surfaces of the light map cut into charts, and charts
+  /// packed and their light drawn.
+  int GetNumberOfReadings() { return this->NumberOfReadings; }
+  int GetNumberOfSegmentations() { return this->NumberOfSegmentations; }
+  int GetNumberOfPackings() { return this->NumberOfPackings; }
+  ///@}
+
  protected:
   vtkSurfaceRepresentation();
   ~vtkSurfaceRepresentation() override;
@@ -91,7 +102,12 @@ class LAMBERTATLAS_EXPORT vtkSurfaceRepresentation : public vtkPolyDataAlgorithm
   void operator=(const vtkSurfaceRepresentation&) = delete;
 
   struct Settings;
+  struct Kept;
+  void TakeIn(vtkPolyData* mesh, vtkTable* tree, vtkPolyData* solution);
+
   std::unique_ptr<Settings> Options;
+  std::unique_ptr<Kept> Last;  ///< what the last run made
+  int NumberOfReadings = 0, NumberOfSegmentations = 0, NumberOfPackings = 0;
 };
 
 #endif

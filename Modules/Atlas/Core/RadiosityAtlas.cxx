@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 
 #include "Atlas/Core/ChartPacking.h"
 #include "Atlas/Core/TexelRaster.h"
@@ -223,6 +224,12 @@ double FillPages(const Layout& layout, const AtlasOptions& options, Packing* pac
 }
 
 }  // namespace
+
+bool AtlasOptions::operator==(const AtlasOptions& other) const {
+  return std::tie(stretch, pageSize, pages, texelSize, padding, mipLevels, density) ==
+         std::tie(other.stretch, other.pageSize, other.pages, other.texelSize, other.padding,
+                  other.mipLevels, other.density);
+}
 
 int PaddingOf(const AtlasOptions& options) {
   if (options.mipLevels == 0) return options.padding;

@@ -26,6 +26,8 @@ struct AtlasOptions {
   /// others, [0, 5]: the padding is 1.5 * 2^levels texels at least.
   int mipLevels = 0;
   TexelDensity density = TexelDensity::Uniform;  ///< counts where there is a solution to follow
+
+  bool operator==(const AtlasOptions& other) const;
 };
 
 struct RadiosityAtlas {

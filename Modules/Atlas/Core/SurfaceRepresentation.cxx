@@ -179,105 +179,18 @@ LightMap DrawMapped(const RepresentedScene& scene, const RadiositySolution& solu
                       FindBorders(*uncut, solution, mapped, scene.atlas));
 }
 
-/// Surfaces in their order, every one in its representation; parts of those of `uncut`, where that
-/// is given.
-RepresentedScene RepresentAsTheyAre(const TriangleMesh& mesh, const ClusterTree& tree,
-                                    const RadiositySolution& solution, const TriangleMesh* uncut,
-                                    const RepresentationOptions& options,
-                                    const AtlasOptions& atlasOptions,
-                                    const ProgressCallback& progress) {
-  // Surface by surface.
-  RepresentedScene scene;
-  scene.surfaces = ChooseRepresentations(mesh, solution, options);
-  std::vector<char> isMapped, isLitByPoints;
-  std::vector<size_t> litByPoints;
-  for (size_t row = 0; row < scene.surfaces.size(); ++row) {
-    scene.surfaces[row].surface = int32_t(row);
-    isMapped.push_back(scene.surfaces[row].chosen == Representation::LightMap);
-    isLitByPoints.push_back(!isMapped.back());
-    if (!isMapped.back()) litByPoints.push_back(row);
-  }
-  scene.points = OnBrighterSides(TakeSurfaces(mesh, tree, solution, isLitByPoints), litByPoints,
-                                 &scene.rowOfPoints);
-
-  // The light map of those that it takes.
-  scene.mapped = TakeSurfaces(mesh, tree, solution, isMapped);
-  scene.atlas = MakeRadiosityAtlas(
-      scene.mapped.mesh, scene.mapped.tree, atlasOptions,
-      [&](double fraction, const char* stage) { return Report(progress, 0.7 * fraction, stage); });
-  scene.atlas = WithTexelDensity(
-      scene.mapped.mesh, std::move(scene.atlas), scene.mapped.solution, atlasOptions,
-      [&](double, const char* stage) { return Report(progress, 0.7, stage); });
-  scene.map = DrawMapped(scene, solution, uncut, [&](double fraction, const char* stage) {
-    return Report(progress, 0.7 + 0.3 * fraction, stage);
-  });
-
-  // What it costs.
-  const std::vector<double> errors = MapErrors(scene), texels = TexelsOfSurfaces(scene);
-  size_t next = 0;
-  for (SurfaceCost& cost : scene.surfaces) {
-    if (cost.chosen != Representation::LightMap) {
-      const double size = scene.atlas.texelSize;
-      if (size > 0) cost.texels = std::llround(std::ceil(cost.area / (size * size)));
-      continue;
-    }
-    cost.texels = std::llround(std::ceil(texels[next]));
-    cost.mapError = errors[next++];
-  }
-  return scene;
+Representation WantedOf(const RepresentationOptions& options, size_t surface) {
+  return options.wanted.empty() ? Representation::Automatic : options.wanted[surface];
 }
 
-/// Cuts surfaces where the options ask for it.
-RepresentedScene RepresentParts(const TriangleMesh& mesh, const ClusterTree& tree,
-                                const RadiositySolution& solution,
-                                const RepresentationOptions& options,
-                                const AtlasOptions& atlasOptions,
-                                const ProgressCallback& progress) {
-  if (!options.splitSurfaces) {
-    return RepresentAsTheyAre(mesh, tree, solution, nullptr, options, atlasOptions, progress);
-  }
-  RequireFitting(options, tree.surfaceRoots.size());
-  const auto wantedOf = [&](size_t surface) {
-    return options.wanted.empty() ? Representation::Automatic : options.wanted[surface];
-  };
-  std::vector<bool> mayBeCut(tree.surfaceRoots.size());
-  for (size_t s = 0; s < mayBeCut.size(); ++s) {
-    mayBeCut[s] = wantedOf(s) == Representation::Automatic;
-  }
-  // Parts of a surface show the same side.
-  const RadiositySolution shown = TakeTriangles(solution, TrianglesOnBrighterSides(mesh, solution));
-  const SurfaceParts parts = CutWhereRefined(mesh, tree, shown, mayBeCut);
-
-  // Parts as surfaces.
-  TriangleMesh ofParts = mesh;
-  ofParts.surfaceId = parts.partOfFace;
-  RepresentationOptions optionsOfParts = options;
-  optionsOfParts.wanted.clear();
-  for (const int32_t surface : parts.surfaceOfPart) {
-    optionsOfParts.wanted.push_back(wantedOf(size_t(surface)));
-  }
-  RepresentedScene scene =
-      RepresentAsTheyAre(ofParts, parts.tree, shown, &mesh, optionsOfParts, atlasOptions, progress);
-  for (size_t part = 0; part < scene.surfaces.size(); ++part) {
-    scene.surfaces[part].surface = parts.surfaceOfPart[part];
-  }
-  return scene;
-}
-
-}  // namespace
-
-std::vector<SurfaceCost> ChooseRepresentations(const TriangleMesh& mesh,
-                                               const RadiositySolution& solution,
-                                               const RepresentationOptions& options) {
-  if (mesh.surfaceId.empty()) throw Error("The mesh has no surfaces; cluster its faces first.");
-  std::vector<SurfaceCost> costs = MeasureSurfaces(mesh, solution);
-  RequireFitting(options, costs.size());
-
+/// Takes surfaces into the light map, the most refined first.
+void Choose(const RepresentationOptions& options, std::vector<SurfaceCost>* surfaces) {
   // What is wanted stands.
+  std::vector<SurfaceCost>& costs = *surfaces;
   int64_t introduced = 0;
   std::vector<size_t> open;
   for (size_t s = 0; s < costs.size(); ++s) {
-    const auto wanted = options.wanted.empty() ? Representation::Automatic : options.wanted[s];
+    const Representation wanted = WantedOf(options, s);
     if (wanted == Representation::LightMap) costs[s].chosen = wanted;
     if (wanted == Representation::Automatic) open.push_back(s);
     if (costs[s].chosen == Representation::Points) introduced += costs[s].Introduced();
@@ -292,6 +205,33 @@ std::vector<SurfaceCost> ChooseRepresentations(const TriangleMesh& mesh,
     costs[s].chosen = Representation::LightMap;
     introduced -= costs[s].Introduced();
   }
+}
+
+/// What the surfaces take of the light map, and are off by in it.
+void AddCostsOfMap(const RepresentedScene& scene, std::vector<SurfaceCost>* surfaces) {
+  const std::vector<double> errors = MapErrors(scene), texels = TexelsOfSurfaces(scene);
+  size_t next = 0;
+  for (SurfaceCost& cost : *surfaces) {
+    if (cost.chosen != Representation::LightMap) {
+      const double size = scene.atlas.texelSize;
+      if (size > 0) cost.texels = std::llround(std::ceil(cost.area / (size * size)));
+      continue;
+    }
+    cost.texels = std::llround(std::ceil(texels[next]));
+    cost.mapError = errors[next++];
+  }
+}
+
+}  // namespace
+
+std::vector<SurfaceCost> ChooseRepresentations(const TriangleMesh& mesh,
+                                               const RadiositySolution& solution,
+                                               const RepresentationOptions& options) {
+  if (mesh.surfaceId.empty()) throw Error("The mesh has no surfaces; cluster its faces first.");
+  std::vector<SurfaceCost> costs = MeasureSurfaces(mesh, solution);
+  RequireFitting(options, costs.size());
+
+  Choose(options, &costs);
   return costs;
 }
 
@@ -300,34 +240,164 @@ RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& 
                                    const RepresentationOptions& options,
                                    const AtlasOptions& atlasOptions,
                                    const ProgressCallback& progress) {
-  const std::optional<ShownSides> shown = ShowBothSides(mesh, tree, solution);
-  if (!shown) return RepresentParts(mesh, tree, solution, options, atlasOptions, progress);
+  KeptRepresentation kept(mesh, tree, solution);
+  kept.Represent(options, atlasOptions, progress);
+  return kept.TakeScene();
+}
 
-  // The sides of sheets as surfaces.
-  RadiositySolution onSides = OntoShownSides(solution, shown->inputFace, shown->side);
-  for (const int64_t point : shown->inputPoint) {
+KeptRepresentation::KeptRepresentation(const TriangleMesh& mesh, const ClusterTree& tree,
+                                       const RadiositySolution& solution)
+    : solvedMesh_(mesh),
+      solvedTree_(tree),
+      solvedLight_(solution),
+      shown_(ShowBothSides(mesh, tree, solution)) {
+  if (!shown_) return;
+  onSides_ = OntoShownSides(solution, shown_->inputFace, shown_->side);
+  for (const int64_t point : shown_->inputPoint) {
     if (solution.inputIrradiance.empty()) break;
-    onSides.inputIrradiance.push_back(solution.inputIrradiance[size_t(point)]);
+    onSides_.inputIrradiance.push_back(solution.inputIrradiance[size_t(point)]);
   }
-  RepresentationOptions ofSides = options;
-  if (options.wanted.size() == tree.surfaceRoots.size()) {
-    ofSides.wanted.clear();
-    for (const int32_t s : shown->inputSurface) ofSides.wanted.push_back(options.wanted[size_t(s)]);
-  }
-  RepresentedScene scene =
-      RepresentParts(shown->mesh, shown->tree, onSides, ofSides, atlasOptions, progress);
+}
 
-  // What they are of the solved mesh.
-  scene.hasSheets = true;
-  for (SurfaceCost& cost : scene.surfaces) {
-    const size_t s = size_t(cost.surface);
-    const ClusterNode& root = shown->tree.nodes[size_t(shown->tree.surfaceRoots[s])];
-    cost.surface = shown->inputSurface[s];
-    cost.side = shown->side[size_t(root.firstFace)];
+KeptRepresentation::~KeptRepresentation() = default;
+
+void KeptRepresentation::Represent(const RepresentationOptions& options,
+                                   const AtlasOptions& atlasOptions,
+                                   const ProgressCallback& progress) {
+  if (!Report(progress, 0, "choosing representations")) throw Cancelled();
+
+  // The sides of sheets are surfaces.
+  RepresentationOptions wanted = options;
+  if (shown_ && options.wanted.size() == solvedTree_.surfaceRoots.size()) {
+    wanted.wanted.clear();
+    for (const int32_t s : shown_->inputSurface) wanted.wanted.push_back(options.wanted[size_t(s)]);
   }
-  for (int64_t& face : scene.mapped.inputFace) face = shown->inputFace[size_t(face)];
-  for (int64_t& face : scene.points.inputFaceId) face = shown->inputFace[size_t(face)];
-  return scene;
+  RequireFitting(wanted, this->Tree().surfaceRoots.size());
+
+  // Which of them, or of their parts, the light map takes.
+  this->Measure(wanted);
+  if (candidates_.mayBeCut) {
+    RepresentationOptions ofParts = wanted;
+    ofParts.wanted.clear();
+    for (const int32_t s : candidates_.surface)
+      ofParts.wanted.push_back(WantedOf(wanted, size_t(s)));
+    wanted = ofParts;
+  }
+  std::vector<SurfaceCost> surfaces = candidates_.costs;
+  Choose(wanted, &surfaces);
+  this->Take(surfaces);
+
+  // Its light, and what it costs.
+  this->Draw(atlasOptions, progress);
+  AddCostsOfMap(scene_, &surfaces);
+  for (SurfaceCost& cost : surfaces) this->TellOfSolvedMesh(&cost);
+  scene_.surfaces = std::move(surfaces);
+}
+
+void KeptRepresentation::Measure(const RepresentationOptions& options) {
+  std::optional<std::vector<bool>> mayBeCut;
+  if (options.splitSurfaces) {
+    mayBeCut.emplace();
+    for (size_t s = 0; s < this->Tree().surfaceRoots.size(); ++s) {
+      mayBeCut->push_back(WantedOf(options, s) == Representation::Automatic);
+    }
+  }
+  if (!candidates_.costs.empty() && candidates_.mayBeCut == mayBeCut) return;
+  candidates_ = Candidates();
+  isMapped_.clear();
+
+  if (mayBeCut) {
+    // Parts of a surface show the same side.
+    const TriangleMesh& mesh = this->Mesh();
+    candidates_.light = TakeTriangles(this->Light(), TrianglesOnBrighterSides(mesh, this->Light()));
+    SurfaceParts parts = CutWhereRefined(mesh, this->Tree(), candidates_.light, *mayBeCut);
+    candidates_.mesh = mesh;
+    candidates_.mesh.surfaceId = std::move(parts.partOfFace);
+    candidates_.tree = std::move(parts.tree);
+    candidates_.surface = std::move(parts.surfaceOfPart);
+    candidates_.mayBeCut = std::move(mayBeCut);
+    candidates_.costs = MeasureSurfaces(candidates_.mesh, candidates_.light);
+  } else {
+    candidates_.costs = MeasureSurfaces(this->Mesh(), this->Light());
+  }
+  for (size_t row = 0; row < candidates_.costs.size(); ++row) {
+    candidates_.costs[row].surface = int32_t(row);
+  }
+}
+
+void KeptRepresentation::Take(const std::vector<SurfaceCost>& surfaces) {
+  std::vector<char> isMapped, isLitByPoints;
+  std::vector<size_t> litByPoints;
+  for (size_t row = 0; row < surfaces.size(); ++row) {
+    isMapped.push_back(surfaces[row].chosen == Representation::LightMap);
+    isLitByPoints.push_back(!isMapped.back());
+    if (!isMapped.back()) litByPoints.push_back(row);
+  }
+  if (isMapped == isMapped_) return;
+  isMapped_.clear();
+  charts_ = ChartSet();
+  drawn_.reset();
+
+  // Those that their points light.
+  const bool areParts = candidates_.mayBeCut.has_value();
+  const TriangleMesh& mesh = areParts ? candidates_.mesh : this->Mesh();
+  const ClusterTree& tree = areParts ? candidates_.tree : this->Tree();
+  const RadiositySolution& light = areParts ? candidates_.light : this->Light();
+  scene_ = RepresentedScene();
+  scene_.hasSheets = shown_.has_value();
+  scene_.points = OnBrighterSides(TakeSurfaces(mesh, tree, light, isLitByPoints), litByPoints,
+                                  &scene_.rowOfPoints);
+  if (shown_) {
+    for (int64_t& face : scene_.points.inputFaceId) face = shown_->inputFace[size_t(face)];
+  }
+
+  // Those of the light map.
+  scene_.mapped = TakeSurfaces(mesh, tree, light, isMapped);
+  mappedFaces_ = scene_.mapped.inputFace;
+  isMapped_ = std::move(isMapped);
+}
+
+void KeptRepresentation::Draw(const AtlasOptions& options, const ProgressCallback& progress) {
+  if (drawn_ && *drawn_ == options) return;
+  drawn_.reset();
+  const SurfaceSubset& mapped = scene_.mapped;
+  const auto layFlat = [&](double fraction, const char* stage) {
+    return Report(progress, 0.7 * fraction, stage);
+  };
+
+  // Their charts, and the places of these.
+  const ChartOptions chartOptions = ChartOptionsOf(mapped.tree, options);
+  if (!charts_.IsOf(chartOptions)) {
+    charts_ = CutIntoCharts(
+        mapped.mesh, mapped.tree, chartOptions,
+        [&](double fraction, const char* stage) { return layFlat(0.6 * fraction, stage); });
+    ++counts_.segmentations;
+  }
+  scene_.atlas =
+      WithTexelDensity(mapped.mesh, PackAtlas(charts_, options, layFlat), mapped.solution, options,
+                       [&](double, const char* stage) { return Report(progress, 0.7, stage); });
+  ++counts_.packings;
+
+  // Light on the faces of the mesh that was taken from, then told of that which was solved.
+  scene_.mapped.inputFace = mappedFaces_;
+  scene_.map = DrawMapped(scene_, candidates_.mayBeCut ? candidates_.light : this->Light(),
+                          candidates_.mayBeCut ? &this->Mesh() : nullptr,
+                          [&](double fraction, const char* stage) {
+                            return Report(progress, 0.7 + 0.3 * fraction, stage);
+                          });
+  if (shown_) {
+    for (int64_t& face : scene_.mapped.inputFace) face = shown_->inputFace[size_t(face)];
+  }
+  drawn_ = options;
+}
+
+void KeptRepresentation::TellOfSolvedMesh(SurfaceCost* cost) const {
+  if (candidates_.mayBeCut) cost->surface = candidates_.surface[size_t(cost->surface)];
+  if (!shown_) return;
+  const size_t s = size_t(cost->surface);
+  const ClusterNode& root = shown_->tree.nodes[size_t(shown_->tree.surfaceRoots[s])];
+  cost->surface = shown_->inputSurface[s];
+  cost->side = shown_->side[size_t(root.firstFace)];
 }
 
 std::vector<uint8_t> SidesOfMappedFaces(const RepresentedScene& scene) {

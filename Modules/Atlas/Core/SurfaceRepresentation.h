@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "Atlas/Core/LightMap.h"
@@ -72,6 +74,68 @@ RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& 
                                    const RepresentationOptions& options,
                                    const AtlasOptions& atlasOptions,
                                    const ProgressCallback& progress = {});
+
+/// The same for those who represent one solution again and again: what is still valid is not made
+/// anew, and no result depends on what was there before. Mesh, tree and solution have to outlive
+/// it.
+class KeptRepresentation {
+ public:
+  /// Throws Error where the three do not belong together.
+  KeptRepresentation(const TriangleMesh& mesh, const ClusterTree& tree,
+                     const RadiositySolution& solution);
+  ~KeptRepresentation();
+  KeptRepresentation(const KeptRepresentation&) = delete;
+  KeptRepresentation& operator=(const KeptRepresentation&) = delete;
+
+  /// Surfaces are measured anew only where others may be cut, cut into charts where others are in
+  /// the light map or charts would be others (ChartSet::IsOf), packed and drawn where an option of
+  /// the atlas changed, too. Throws as RepresentSurfaces; then nothing is in Scene() to be used.
+  void Represent(const RepresentationOptions& options, const AtlasOptions& atlasOptions,
+                 const ProgressCallback& progress = {});
+  const RepresentedScene& Scene() const { return scene_; }
+  /// Leaves nothing to be used again.
+  RepresentedScene TakeScene() { return std::move(scene_); }
+
+  /// How often surfaces were cut into charts, and charts packed and their light drawn.
+  struct Counts {
+    int segmentations = 0, packings = 0;
+  };
+  const Counts& HowOften() const { return counts_; }
+
+ private:
+  /// What is chosen among: the surfaces as they are, or their parts.
+  struct Candidates {
+    std::optional<std::vector<bool>> mayBeCut;  ///< by surface; none: all are as they are
+    TriangleMesh mesh;                          ///< of parts, as all that follows
+    ClusterTree tree;
+    RadiositySolution light;
+    std::vector<int32_t> surface;    ///< by part
+    std::vector<SurfaceCost> costs;  ///< by surface or part, but for those of the light map
+  };
+
+  ///@{ What surfaces are of: the solved mesh, or the sides of it that show.
+  const TriangleMesh& Mesh() const { return shown_ ? shown_->mesh : solvedMesh_; }
+  const ClusterTree& Tree() const { return shown_ ? shown_->tree : solvedTree_; }
+  const RadiositySolution& Light() const { return shown_ ? onSides_ : solvedLight_; }
+  ///@}
+  void Measure(const RepresentationOptions& options);
+  void Take(const std::vector<SurfaceCost>& surfaces);
+  void Draw(const AtlasOptions& options, const ProgressCallback& progress);
+  void TellOfSolvedMesh(SurfaceCost* cost) const;
+
+  const TriangleMesh& solvedMesh_;
+  const ClusterTree& solvedTree_;
+  const RadiositySolution& solvedLight_;
+  std::optional<ShownSides> shown_;
+  RadiositySolution onSides_;
+  Candidates candidates_;
+  std::vector<char> isMapped_;         ///< by row: as `scene_` has been taken; empty: it has not
+  std::vector<int64_t> mappedFaces_;   ///< by face of `scene_.mapped`: of Mesh()
+  ChartSet charts_;                    ///< of `scene_.mapped`
+  std::optional<AtlasOptions> drawn_;  ///< that `scene_` was drawn by
+  RepresentedScene scene_;
+  Counts counts_;
+};
 
 /// By face of `scene.mapped.mesh`: the side of its face of the solved mesh that it shows.
 std::vector<uint8_t> SidesOfMappedFaces(const RepresentedScene& scene);

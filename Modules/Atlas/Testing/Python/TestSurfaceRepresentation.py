@@ -104,6 +104,49 @@ of_part = np.array([parts[np.argmax(surfaces == s)] == 0 for s in range(surfaces
 assert np.array_equal(costs()["LightMapped"] == 1, is_white & ~of_part)
 chosen.SetPartRepresentation(part, chosen.AUTOMATIC)
 
+# Of the steps only what changed is done again.
+
+
+def counts():
+    """Of a run: how often inputs were taken in, charts cut, packed and drawn."""
+    chosen.Update()
+    return chosen.GetNumberOfReadings(), chosen.GetNumberOfSegmentations(), chosen.GetNumberOfPackings()
+
+
+def arrays():
+    """What comes out: points, their light and places, the page, the costs."""
+    chosen.Update()
+    mesh, image = chosen.GetOutput(0), chosen.GetOutputDataObject(1).GetBlock(0)
+    found = [vtk_to_numpy(mesh.GetPointData().GetArray(name)).copy() for name in ("Irradiance", "LightMapTCoords", "SharedPointId")]
+    return found + [vtk_to_numpy(image.GetPointData().GetScalars()).copy(), *costs().values()]
+
+
+readings, segmentations, packings = counts()
+assert readings == 1
+first = arrays()
+chosen.Modified()
+assert counts() == (1, segmentations, packings)
+chosen.SetIntroducedTriangles((1 << 40) + 1)  # Every surface stays as it is shown.
+assert counts() == (1, segmentations, packings)
+chosen.SetPadding(3)
+assert counts() == (1, segmentations, packings + 1)
+chosen.SetStretch(1.5)
+assert counts() == (1, segmentations + 1, packings + 2)
+chosen.SetRepresentation("White", chosen.AUTOMATIC)
+chosen.SetIntroducedTriangles(0)
+assert counts() == (1, segmentations + 2, packings + 3)
+chosen.SplitSurfacesOn()
+assert counts() == (1, segmentations + 3, packings + 4)
+solver.SetIterations(3)
+assert counts() == (2, segmentations + 4, packings + 5)
+solver.SetIterations(2)
+chosen.SplitSurfacesOff()
+chosen.SetRepresentation("White", chosen.LIGHT_MAP)
+chosen.SetIntroducedTriangles(1 << 40)
+chosen.SetStretch(2)
+chosen.SetPadding(2)
+assert all(np.array_equal(a, b) for a, b in zip(first, arrays(), strict=True))
+
 # Progress; an abort leaves nothing and is no error; wrong options are told.
 errors, fractions = [], []
 chosen.AddObserver("ErrorEvent", lambda *_: errors.append(1))
@@ -124,8 +167,6 @@ told = len(errors)
 chosen.Update()
 assert len(errors) > told
 chosen.SetSurfaceRepresentation(int(surfaces.max()) + 1, chosen.AUTOMATIC)
-print("surface representation: passed")
-
 # Cut into parts: a row each, none of a surface whose kind is decided, and no face is lost.
 chosen.SetIntroducedTriangles(0)
 chosen.SplitSurfacesOn()
@@ -134,3 +175,34 @@ assert np.array_equal(np.unique(table["Surface"]), np.arange(surfaces.max() + 1)
 assert np.array_equal(np.bincount(table["Surface"], table["InputTriangles"]), np.bincount(surfaces))
 assert (np.bincount(table["Surface"])[is_white] == 1).all() and (table["LightMapped"] == 1).any()
 way_back()
+
+# What was kept is what a filter makes that has nothing to keep: parts of surfaces, both sides of a sheet.
+reader.SetFileName(os.path.join(os.environ["LAMBERT_DATA_DIR"], "TwoRooms", "TwoRooms.obj"))
+solver.SetIterations(5)
+solver.SetError(0.1)
+chosen.SetIntroducedTriangles(20)
+chosen.SetPageSize(256)
+chosen.Update()
+chosen.SetPadding(4)
+kept, (_, _, packings) = arrays(), counts()
+assert chosen.GetOutput(0).GetCellData().HasArray("Side") and {0, 1} == set(costs()["LightMapped"])
+assert len(costs()["Surface"]) > len(set(zip(costs()["Surface"], costs()["Side"])))  # Some are cut.
+chosen.SetStretch(1.5)
+chosen.Update()
+chosen.SetStretch(2)
+again = arrays()
+assert counts()[2] == packings + 2
+options = {name: getattr(chosen, "Get" + name)() for name in ("IntroducedTriangles", "SplitSurfaces", "PageSize", "Padding", "Stretch")}
+fresh = lambert.vtkSurfaceRepresentation()
+fresh.SetInputConnection(clustering.GetOutputPort(0))
+fresh.SetClusterConnection(clustering.GetOutputPort(1))
+fresh.SetSolutionConnection(solver.GetOutputPort(0))
+fresh.SetRepresentation("White", fresh.LIGHT_MAP)
+for name, value in options.items():
+    getattr(fresh, "Set" + name)(value)
+way = [vtk_to_numpy(chosen.GetOutput(0).GetCellData().GetArray(name)).copy() for name in ("InputFaceId", "ChartId", "Side", "SurfaceId")]
+chosen = fresh
+assert all(np.array_equal(a, b) and np.array_equal(a, c) for a, b, c in zip(arrays(), kept, again, strict=True))
+for name, values in zip(("InputFaceId", "ChartId", "Side", "SurfaceId"), way):
+    assert np.array_equal(values, vtk_to_numpy(fresh.GetOutput(0).GetCellData().GetArray(name))), name
+print("surface representation: passed")
