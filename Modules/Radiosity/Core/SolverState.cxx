@@ -2,11 +2,11 @@
 
 #include <array>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 
 #include "Common/Core/ContentHash.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/OutputFile.h"
 #include "Scene/Core/SceneKey.h"
 
 namespace lambert {
@@ -208,23 +208,16 @@ uint64_t HashOfFile(std::ifstream* file, uint64_t size) {
 
 }  // namespace
 
-std::string UnfinishedState(const std::string& fileName) { return fileName + ".part"; }
-
 void SaveSolverState(const SolverState& state, const std::string& fileName) {
-  // Under another name first: a run that is cut short leaves the state before whole.
-  const std::string unfinished = UnfinishedState(fileName);
-  StateWriter writer(unfinished);
-  Splits splits = SplitsOf(state.hierarchy);
-  writer(HeaderFor(state.hierarchy, state.hierarchy.Size() - splits.children));
-  SolverState written = state;
-  Exchange(writer, &splits, &written);
-  std::error_code failed;
-  const bool isWhole = writer.Finish();
-  if (isWhole) std::filesystem::rename(unfinished, fileName, failed);
-  if (!isWhole || failed) {
-    std::filesystem::remove(unfinished, failed);
-    throw Error("The state " + fileName + " could not be written; give a place with room for it.");
-  }
+  // A run that is cut short leaves the state before whole.
+  WriteOutput(fileName, [&](const std::string& name) {
+    StateWriter writer(name);
+    Splits splits = SplitsOf(state.hierarchy);
+    writer(HeaderFor(state.hierarchy, state.hierarchy.Size() - splits.children));
+    SolverState written = state;
+    Exchange(writer, &splits, &written);
+    return writer.Finish();
+  });
 }
 
 void RequireSolverState(const std::string& fileName) {

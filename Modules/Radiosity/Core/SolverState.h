@@ -28,9 +28,6 @@ struct SolverState {
 /// left then.
 void SaveSolverState(const SolverState& state, const std::string& fileName);
 
-/// The other name under which a state is written first.
-std::string UnfinishedState(const std::string& fileName);
-
 /// Brings the `state` of a solver that has not iterated yet to that of the file, to the bit. Throws
 /// Error where RequireSolverState does, for a file of another scene (other geometry or clusters,
 /// other materials, other lights, other options of patches), and where elements do not come out as

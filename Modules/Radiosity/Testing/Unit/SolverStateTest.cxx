@@ -192,7 +192,7 @@ TEST_F(SolverStateTest, SaysWhatCannotBeWrittenAndGoesOn) {
   HierarchicalRadiosity solver(room_.scene, room_.tree, options_);
   solver.Run();
   const std::string& failure = solver.Statistics().stateFailure;
-  EXPECT_NE(failure.find("could not be written"), std::string::npos);
+  EXPECT_NE(failure.find("cannot be written"), std::string::npos);
   EXPECT_FALSE(solver.Solution().mesh.triangles.empty());
 }
 
