@@ -25,6 +25,18 @@ int Complain(std::string sentence, int exitCode) {
   return exitCode;
 }
 
+/// Throws CLI::ValidationError where an option or file is given as nothing, as by a variable of a
+/// script that is empty.
+void RequireValues(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& value : option->results()) {
+      if (!value.empty()) continue;
+      throw CLI::ValidationError(option->get_name(),
+                                 "is given an empty value; give it one or leave it out");
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -48,6 +60,7 @@ int main(int argc, char** argv) {
   atlas.AddTo(atlasCommand);
   try {
     app.parse(argc, argv);
+    for (const CLI::App* command : app.get_subcommands()) RequireValues(*command);
     if (*solveCommand) solve.Check();
     if (*benchCommand) bench.Check();
     if (*atlasCommand) atlas.Check();

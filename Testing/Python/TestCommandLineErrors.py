@@ -44,6 +44,13 @@ fails(2, "solve", CORNELL_BOX, "-o", out, "--image", picture, "--false-colors", 
 fails(2, "solve", CORNELL_BOX, "-o", out, "--false-colors", "lux", says=["--image"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--probe-gather", says=["--probe"])
 
+# Nothing is no value of an option, as of a variable in a script that was never set.
+for option in ("--save-state", "--resume", "--report", "--probe", "--image", "--lightmap", "--environment", "--camera", "--error"):
+    fails(2, "solve", CORNELL_BOX, "-o", out, option, "", says=[option, "empty" if option != "--error" else "not a number"])
+fails(2, "solve", "", "-o", out, says=["SCENE", "empty"])
+fails(2, "atlas", CORNELL_BOX, "-o", out, "--report", "", says=["--report", "empty"])
+fails(2, "info", "", says=["SCENE", "empty"])
+
 # Nor is an option taken of which no output would have anything.
 for name, options, says in ((out, ["--lightmap", temporary("map.vtp"), "--keep-textures"], ["--keep-textures", "glTF"]),
                             (out, ["--lightmap", temporary("map.vtp"), "--baked-size", "512"], ["--baked-size", "glTF"]),

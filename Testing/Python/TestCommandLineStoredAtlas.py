@@ -76,7 +76,7 @@ for option, value in (("--pages", 1), ("--page-size", 64), ("--texel-size", 0.1)
     fails(2, "solve", CORNELL_BOX, "-o", out, *mapped, "--atlas", flat, option, value, says=[option, "--atlas"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--atlas", flat, says=["--atlas", "--lightmap"])
 fails(2, "solve", CORNELL_BOX, "-o", out, *mapped, "--atlas", temporary("flat.obj"), says=["--atlas", ".vtp"])
-fails(2, "solve", CORNELL_BOX, "-o", out, *mapped, "--atlas", "", says=["--atlas", ".vtp"])
+fails(2, "solve", CORNELL_BOX, "-o", out, *mapped, "--atlas", "", says=["--atlas", "empty"])
 for output in ("-o", "--lightmap", "--report"):
     given = {"-o": out, "--lightmap": mapped[1], "--report": temporary("never.json"), output: flat}
     fails(2, "solve", CORNELL_BOX, *sum(given.items(), ()), "--atlas", flat, says=["write over", "--atlas"])
