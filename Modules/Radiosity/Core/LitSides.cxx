@@ -24,24 +24,34 @@ struct SideView {
   int64_t rays = 0;
 };
 
-bool SeesLight(const LightSources& lights, const RayScene& rayScene, const Vec3f& x,
-               const Vec3f& n) {
+/// Whether a ray leaves a surface without passing what is nearer than rays skip: through the next
+/// facet of one that is finely curved it would find what lies on its other side. What covers the
+/// place as a whole is passed.
+bool LeavesFreely(const RayScene& rayScene, const RayStart& from, const Vec3f& direction) {
+  return !rayScene.OccludedNear(from, direction) || rayScene.OccludedNear(from, from.normal);
+}
+
+bool SeesLight(const LightSources& lights, const RayScene& rayScene, const RayStart& from) {
   const auto isOpen = [&](const LightSample& sample) {
-    return !rayScene.Occluded(x, sample.direction, sample.distance);
+    return !rayScene.Occluded(from, sample.direction, sample.distance) &&
+           LeavesFreely(rayScene, from, sample.direction);
   };
+  const auto& [x, n] = from;
   return !lights.Irradiance({x, n, n}, 1, SeedOfPlace(x), isOpen).IsBlack();
 }
 
-/// The emitting side, 2 x surface + side, of an emitter that is seen from x; -1 where the one that
-/// is picked is not. Finds lamps that are too small for rays in all directions.
+/// The emitting side, 2 x surface + side, of an emitter that is seen from a place; -1 where the one
+/// that is picked is not. Finds lamps that are too small for rays in all directions.
 int32_t SeenEmitter(const TriangleMesh& mesh, const RayScene& rayScene, const EmitterTree& emitters,
-                    const Vec3f& x, const Vec3f& n, Random* random) {
+                    const RayStart& from, Random* random) {
+  const auto& [x, n] = from;
   const double u[3] = {random->UniformDouble(), random->UniformDouble(), random->UniformDouble()};
   const EmitterTree::Sample sample = emitters.Pick(x, n, u);
   if (sample.face < 0 || !(sample.density > 0) || Dot(n, sample.direction) <= 0) return -1;
   const Side side = Dot(mesh.VectorArea(sample.face), sample.direction) < 0 ? kFront : kBack;
   if (!mesh.Emits(sample.face, side)) return -1;
-  if (rayScene.Occluded(x, x + sample.direction * sample.distance)) return -1;
+  if (rayScene.Occluded(from, x + sample.direction * sample.distance)) return -1;
+  if (!LeavesFreely(rayScene, from, sample.direction)) return -1;
   return 2 * mesh.surfaceId[size_t(sample.face)] + side;
 }
 
@@ -65,19 +75,20 @@ SideView LookAround(const Scene& scene, const ClusterNode& root, int32_t side,
     if (n == Vec3f()) continue;
     if (side == kBack) n = -n;
     const Vec2f b = UniformTriangle(random.Uniform(), random.Uniform());
-    const Vec3f x =
-        PlaceOnTriangle(mesh.Corner(face, 0), mesh.Corner(face, 1), mesh.Corner(face, 2), b);
+    const RayStart from = {
+        PlaceOnTriangle(mesh.Corner(face, 0), mesh.Corner(face, 1), mesh.Corner(face, 2), b), n};
     Vec3f u, v;
     CoordinateSystem(n, &u, &v);
     const Vec3f d = CosineHemisphere(random.Uniform(), random.Uniform());
     const Vec3f direction = u * d.x + v * d.y + n * d.z;
     ++view.rays;
-    view.seesLight = view.seesLight || SeesLight(lights, rayScene, x, n);
+    view.seesLight = view.seesLight || SeesLight(lights, rayScene, from);
     if (!view.seesLight && emitter < 0 && !emitters.IsEmpty()) {
       ++view.rays;
-      emitter = SeenEmitter(mesh, rayScene, emitters, x, n, &random);
+      emitter = SeenEmitter(mesh, rayScene, emitters, from, &random);
     }
-    const RayHit hit = rayScene.Closest(x, direction);
+    if (!LeavesFreely(rayScene, from, direction)) continue;
+    const RayHit hit = rayScene.Closest(from, direction);
     if (hit.face < 0) {
       view.seesLight = view.seesLight || !lights.Radiance(direction).IsBlack();
       continue;

@@ -166,6 +166,11 @@ RayHit RayScene::Closest(const RayStart& from, const Vec3f& unitDirection) const
   return self.HitOf(found, unitDirection);
 }
 
+bool RayScene::OccludedNear(const RayStart& from, const Vec3f& unitDirection) const {
+  const Implementation& self = *implementation_;
+  return self.Blocks(self.Above(from), unitDirection, 0, self.epsilon);
+}
+
 RayHit RayScene::Implementation::HitOf(const RTCRayHit& found, const Vec3f& direction) const {
   RayHit hit;
   if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;

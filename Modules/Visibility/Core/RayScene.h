@@ -57,6 +57,8 @@ class RayScene {
   bool Occluded(const RayStart& from, const Vec3f& to) const;
   bool Occluded(const RayStart& from, const Vec3f& unitDirection, float distance) const;
   RayHit Closest(const RayStart& from, const Vec3f& unitDirection) const;
+  /// Whether anything at all is nearer than Epsilon(); also what the others pass.
+  bool OccludedNear(const RayStart& from, const Vec3f& unitDirection) const;
   /// Faces whose bounds come within `radius` (m) of a point, in ascending order.
   std::vector<int32_t> FacesNear(const Vec3f& point, float radius) const;
 

@@ -61,5 +61,22 @@ TEST(LitSides, AScreenKeepsTheFloorDark) {
   EXPECT_EQ(lit[2], kFrontOnly);
 }
 
+TEST(LitSides, FinelyCurvedThingsAreDarkInside) {
+  // Beads whose facets turn by 6 degrees, some lengths wide that rays skip: one ray in a hundred
+  // from within would skip the next facet, or rounding would bring it to the other side.
+  constexpr int kBeads = 40;
+  Scene scene = FloorUnderLamp(4, 1);
+  for (int bead = 0; bead < kBeads; ++bead) {
+    const Vec3f center(0.02f * float(bead), 0.5f, 1);
+    testing::AddSphere(&scene.mesh, center, 0.003f, 30, Spectrum(0.5f), Spectrum(0.f), false,
+                       2 + bead);
+  }
+  testing::CompleteTables(&scene);
+  int64_t rays = 0;
+  const std::vector<uint8_t> lit = LitSidesOfMaterials(scene, &rays);
+  ASSERT_EQ(lit.size(), size_t(2 + kBeads));
+  for (const uint8_t sides : lit) EXPECT_EQ(sides, kFrontOnly);
+}
+
 }  // namespace
 }  // namespace lambert

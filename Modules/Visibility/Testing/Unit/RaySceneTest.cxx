@@ -61,6 +61,8 @@ TEST(RayScene, WhatLiesUponASurfaceIsPassed) {
   EXPECT_NEAR(rays.Closest(start, {0, 0, 1}).distance, 2, 1e-5);
   EXPECT_FALSE(rays.Occluded(start, Vec3f(0.3f, 0.2f, 1.5f)));
   EXPECT_TRUE(rays.Occluded(start, Vec3f(0.3f, 0.2f, 2.5f)));
+  EXPECT_TRUE(rays.OccludedNear(start, {0, 0, 1}));
+  EXPECT_FALSE(rays.OccludedNear({{0.3f, 0.2f, 5e-5f}, {0, 0, 1}}, {0, 0, 1}));
 }
 
 }  // namespace
