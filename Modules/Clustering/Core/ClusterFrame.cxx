@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 
+#include "Clustering/Core/InnerOctagon.h"
+
 namespace lambert {
 
 namespace {
@@ -22,11 +24,13 @@ class FacePoints {
     if (runs_) return runs_->SpreadOf(node_);
     return PointSpread::OfCorners(mesh_, node_.firstFace, this->End());
   }
-  /// Each at least once.
-  template <class Visit>
-  void ForEach(const Visit& visit) const {
+  /// Each at least once, but for those in boxes of which isWithin(box) is true: they change nothing
+  /// after what was visited.
+  template <class Visit, class IsWithin>
+  void ForEachOuter(const Visit& visit, const IsWithin& isWithin) const {
     if (runs_) {
-      runs_->ForEachPoint(node_, [&](const Vec3f& p) { visit(Vec3d(p)); });
+      runs_->ForEachOuterPoint(
+          node_, [&](const Vec3f& p) { visit(Vec3d(p)); }, isWithin);
       return;
     }
     for (int32_t face = node_.firstFace; face < this->End(); ++face) {
@@ -41,6 +45,23 @@ class FacePoints {
   const ClusterNode& node_;
   const FaceRuns* runs_;
 };
+
+/// A box along three unit axes.
+struct BoxAlong {
+  Vec3d center, reach;
+
+  BoxAlong(const Box3f& box, const Vec3d& origin, const Vec3d& u, const Vec3d& v, const Vec3d& n) {
+    const Vec3d low(box.low), high(box.high);
+    const Vec3d offset = (low + high) * 0.5 - origin, half = (high - low) * 0.5;
+    const auto reachAlong = [&](const Vec3d& axis) {
+      return std::abs(axis.x) * half.x + std::abs(axis.y) * half.y + std::abs(axis.z) * half.z;
+    };
+    center = {Dot(offset, u), Dot(offset, v), Dot(offset, n)};
+    reach = {reachAlong(u), reachAlong(v), reachAlong(n)};
+  }
+};
+
+bool IsAtMost(const Vec3d& a, const Vec3d& b) { return a.x <= b.x && a.y <= b.y && a.z <= b.z; }
 
 Vec3d ToVec3d(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -59,8 +80,17 @@ Axes RectangleAxes(const FacePoints& points, const Vec3d& n) {
   CoordinateSystem(n, &u, &v);
   const Vec3d origin = points.First();
   std::vector<Vec2f> projected;
-  points.ForEach([&](const Vec3d& p) {
+  InnerOctagon inner;
+  const auto project = [&](const Vec3d& p) {
     projected.push_back({float(Dot(p - origin, u)), float(Dot(p - origin, v))});
+    inner.Include(projected.back());
+  };
+  points.ForEachOuter(project, [&](const Box3f& bounds) {
+    const BoxAlong box(bounds, origin, u, v, n);
+    const Vec2d middle{box.center.x, box.center.y}, half{box.reach.x, box.reach.y};
+    const Vec2d other{half.x, -half.y};
+    return inner.Holds(middle + half) && inner.Holds(middle - half) &&
+           inner.Holds(middle + other) && inner.Holds(middle - other);
   });
   const Vec2d axis(MinimumAreaRectangle(projected).axis);
   return {u * axis.x + v * axis.y, v * axis.x - u * axis.y, n};
@@ -72,10 +102,14 @@ ClusterFrame FrameAlong(const Axes& axes, const FacePoints& points) {
   frame.axes = {Vec3f(axes.u), Vec3f(axes.v), Vec3f(axes.n)};
   const Vec3d origin = points.First();
   Vec3d low, high;
-  points.ForEach([&](const Vec3d& p) {
+  const auto include = [&](const Vec3d& p) {
     const Vec3d d = p - origin;
     const Vec3d along{Dot(d, axes.u), Dot(d, axes.v), Dot(d, axes.n)};
     low = Min(low, along), high = Max(high, along);
+  };
+  points.ForEachOuter(include, [&](const Box3f& bounds) {
+    const BoxAlong box(bounds, origin, axes.u, axes.v, axes.n);
+    return IsAtMost(low, box.center - box.reach) && IsAtMost(box.center + box.reach, high);
   });
   const Vec3d middle = (low + high) * 0.5;
   frame.center = Vec3f(origin + axes.u * middle.x + axes.v * middle.y + axes.n * middle.z);
@@ -83,9 +117,13 @@ ClusterFrame FrameAlong(const Axes& axes, const FacePoints& points) {
   // The rounded center is off the middle: measure from where it came to lie, and round up.
   const Vec3d center(frame.center), u(frame.axes[0]), v(frame.axes[1]), n(frame.axes[2]);
   Vec3d reach;
-  points.ForEach([&](const Vec3d& p) {
+  const auto reachTo = [&](const Vec3d& p) {
     const Vec3d d = p - center;
     reach = Max(reach, {std::abs(Dot(d, u)), std::abs(Dot(d, v)), std::abs(Dot(d, n))});
+  };
+  points.ForEachOuter(reachTo, [&](const Box3f& bounds) {
+    const BoxAlong box(bounds, center, u, v, n);
+    return IsAtMost(Max(box.center, -box.center) + box.reach, reach);
   });
   frame.halfExtent = Vec3f(reach);
   for (int k = 0; k < 3; ++k) {

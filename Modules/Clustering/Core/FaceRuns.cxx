@@ -48,6 +48,7 @@ FaceRuns::FaceRuns(const TriangleMesh& mesh)
 FaceRuns::Run FaceRuns::MakeRun(const TriangleMesh& mesh, int64_t first, int64_t end) {
   Run run;
   run.points = PointsOfFaces(mesh, first, end);
+  for (const Vec3f& point : run.points) run.bounds.Include(point);
   run.spread = PointSpread::OfCorners(mesh, first, end);
   Vec3f sum;
   for (int64_t face = first; face < end; ++face) sum += mesh.FrontNormal(face);
@@ -63,9 +64,9 @@ FaceRuns::Run FaceRuns::MakeRun(const TriangleMesh& mesh, int64_t first, int64_t
 
 PointSpread FaceRuns::SpreadOf(const ClusterNode& node) const {
   PointSpread spread;
-  this->ForEachPart(
+  ForEachPart(
       node, [&](int32_t face, int32_t end) { spread += PointSpread::OfCorners(mesh_, face, end); },
-      [&](const Run& run) { spread += run.spread; });
+      [&](int32_t run) { spread += runs_[size_t(run)].spread; });
   return spread;
 }
 
@@ -84,10 +85,9 @@ float FaceRuns::LeastCosine(const ClusterNode& node, const Vec3f& axis, float ne
       if (area > negligible) least = std::min(least, Dot(mesh_.VectorArea(face), axis) / area);
     }
   };
-  this->ForEachPart(node, look, [&](const Run& run) {
-    if (LeastCosine(run, axis) >= least) return;
-    const int32_t first = int32_t(&run - runs_.data()) * kFaces;
-    look(first, first + kFaces);
+  ForEachPart(node, look, [&](int32_t run) {
+    if (LeastCosine(runs_[size_t(run)], axis) >= least) return;
+    look(run * kFaces, (run + 1) * kFaces);
   });
   return least;
 }

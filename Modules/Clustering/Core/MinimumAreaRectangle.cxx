@@ -3,9 +3,8 @@
 #include <CGAL/convex_hull_2.h>
 #include <CGAL/min_quadrilateral_2.h>
 
-#include <array>
-
 #include "Clustering/Core/ClusterFrame.h"
+#include "Clustering/Core/InnerOctagon.h"
 
 namespace lambert {
 
@@ -21,53 +20,13 @@ struct Span {
   double Half() const { return 0.5 * (high - low); }
 };
 
-/// The octagon through the points that lie farthest along x, y and between: convex,
-/// counter-clockwise, some of its corners may be one.
-std::array<Vec2d, 8> Octagon(const std::vector<Vec2f>& points) {
-  std::array<Vec2d, 8> corners;
-  std::array<double, 8> farthest;
-  farthest.fill(std::numeric_limits<double>::lowest());
-  for (const Vec2f& point : points) {
-    const Vec2d p(point);
-    const double along[8] = {p.x, p.x + p.y, p.y, p.y - p.x, -p.x, -p.x - p.y, -p.y, p.x - p.y};
-    for (size_t i = 0; i < 8; ++i) {
-      if (!(along[i] > farthest[i])) continue;
-      farthest[i] = along[i];
-      corners[i] = p;
-    }
-  }
-  return corners;
-}
-
 /// The points that the hull of all of them may go through: few of many.
 std::vector<Point> PointsOfHull(const std::vector<Vec2f>& points) {
-  // A polygon of some of them, its sides moved inward by far more than double arithmetic errs.
-  struct Side {
-    Vec2d from, inward;
-    double least;
-  };
-  constexpr double kInside = 1e-9;  // of the extent, as a height over a side
-  const std::array<Vec2d, 8> corners = Octagon(points);
-  const double extent = std::max(corners[0].x - corners[4].x, corners[2].y - corners[6].y);
-  std::vector<Side> sides;
-  for (size_t i = 0; i < 8; ++i) {
-    const Vec2d &a = corners[i], side = corners[(i + 1) % 8] - a;
-    if (side != Vec2d()) {
-      sides.push_back({a, {-side.y, side.x}, kInside * extent * std::hypot(side.x, side.y)});
-    }
-  }
-
-  // What lies within it does not lie on the hull.
-  const auto isWithin = [&](const Vec2d& p) {
-    for (const Side& side : sides) {
-      const Vec2d d = p - side.from;
-      if (!(d.x * side.inward.x + d.y * side.inward.y > side.least)) return false;
-    }
-    return !sides.empty();
-  };
+  InnerOctagon inner;
+  for (const Vec2f& p : points) inner.Include(p);
   std::vector<Point> kept;
   for (const Vec2f& p : points) {
-    if (std::isfinite(p.x) && std::isfinite(p.y) && !isWithin(Vec2d(p)))
+    if (std::isfinite(p.x) && std::isfinite(p.y) && !inner.Holds(Vec2d(p)))
       kept.emplace_back(p.x, p.y);
   }
   return kept;

@@ -32,22 +32,6 @@ bool EmitsSomewhere(const TriangleMesh& mesh, const ClusterNode& node) {
 
 Vec3f Oriented(const Vec3f& v, Side side) { return side == kFront ? v : -v; }
 
-/// Area-weighted means over the faces of a cluster, for the side of an element.
-void AverageMaterial(const TriangleMesh& mesh, const FaceRuns& runs, const ClusterNode& node,
-                     Element* element) {
-  Spectrum reflectance, emittance;
-  float total = 0;
-  for (int32_t face = node.firstFace; face < node.firstFace + node.faceCount; ++face) {
-    const float area = runs.Area(face);
-    total += area;
-    reflectance += mesh.reflectance[size_t(face)] * area;
-    if (mesh.Emits(face, element->side)) emittance += mesh.emittance[size_t(face)] * area;
-  }
-  if (!(total > 0)) return;
-  element->reflectance = reflectance / total;
-  element->emittance = emittance / total;
-}
-
 /// Stratified places on a convex polygon: one low-discrepancy set, shifted by the element's seed.
 void SamplePolygon(const Vec3f* corners, int count, const Vec3f& normal, uint64_t seed,
                    std::array<SurfaceSample, kSamplesPerElement>* samples) {
@@ -96,6 +80,7 @@ ElementHierarchy::ElementHierarchy(const Scene& scene, const ClusterTree& tree,
       litSides_(litSides),
       leafMesh_(scene.mesh, options),
       faceRuns_(scene.mesh),
+      materialRuns_(faceRuns_),
       lightSources_(scene.lights) {
   // Running sums of area, to pick faces of a cluster by area.
   const TriangleMesh& mesh = scene.mesh;
@@ -147,11 +132,12 @@ bool ElementHierarchy::TakeMaterials() {
   }
 
   // Faces by their clusters, patches by their parents, volumes by their surfaces.
+  materialRuns_.TakeMaterials();
   for (const std::vector<int32_t>& level : levels_) {
     ParallelForEach(int64_t(level.size()), 64, [&](int64_t i) {
       Element& element = elements_[size_t(level[size_t(i)])];
       if (element.kind == ElementKind::Face) {
-        AverageMaterial(scene_.mesh, faceRuns_, tree_.nodes[size_t(element.item)], &element);
+        this->TakeMeanMaterial(&element);
       } else if (element.kind == ElementKind::Patch) {
         element.reflectance = elements_[size_t(element.parent)].reflectance;
         element.emittance = elements_[size_t(element.parent)].emittance;
@@ -248,8 +234,14 @@ void ElementHierarchy::FinishVolumes(int32_t root) {
   }
 }
 
+void ElementHierarchy::TakeMeanMaterial(Element* element) const {
+  const ClusterNode& node = tree_.nodes[size_t(element->item)];
+  const MaterialRuns::Material mean = materialRuns_.MeanOf(node, Side(element->side));
+  element->reflectance = mean.reflectance;
+  element->emittance = mean.emittance;
+}
+
 Element ElementHierarchy::MakeFaceElement(int32_t nodeIndex, Side side, int32_t surface) const {
-  const TriangleMesh& mesh = scene_.mesh;
   const ClusterNode& node = tree_.nodes[size_t(nodeIndex)];
   Element element;
   element.kind = ElementKind::Face;
@@ -261,7 +253,7 @@ Element ElementHierarchy::MakeFaceElement(int32_t nodeIndex, Side side, int32_t 
   element.axis = Normalize(element.vectorArea);
 
   // Material, and the cone of normals; faces too small to matter do not widen it.
-  AverageMaterial(mesh, faceRuns_, node, &element);
+  this->TakeMeanMaterial(&element);
   const float negligible = 1e-4f * node.area / float(node.faceCount);
   const float cosine = faceRuns_.LeastCosine(node, Oriented(element.axis, side), negligible);
   const bool hasAxis = Length(node.vectorArea) > 1e-3f * node.area;

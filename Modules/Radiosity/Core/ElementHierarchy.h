@@ -10,6 +10,7 @@
 #include "Common/Core/Random.h"
 #include "Radiosity/Core/Element.h"
 #include "Radiosity/Core/LeafMesh.h"
+#include "Radiosity/Core/MaterialRuns.h"
 #include "Scene/Core/LightSource.h"
 #include "Scene/Core/Scene.h"
 
@@ -83,6 +84,7 @@ class ElementHierarchy {
   int32_t BuildVolumes(const std::vector<int32_t>& surfaces);
   void LinkVolume(int32_t element, const std::vector<VolumeNode>& volumes,
                   const std::vector<int32_t>& surfaces);
+  void TakeMeanMaterial(Element* element) const;
   Element MakeFaceElement(int32_t node, Side side, int32_t surface) const;
   Place PlaceInCluster(const ClusterNode& node, Side side, double u, Random* random) const;
   Element MakePatchElement(int32_t patch, const Element& parent) const;
@@ -95,6 +97,7 @@ class ElementHierarchy {
   const std::vector<uint8_t>& litSides_;
   LeafMesh leafMesh_;
   FaceRuns faceRuns_;
+  MaterialRuns materialRuns_;
   std::vector<double> areaBefore_;  ///< area of all faces before each face: picks faces by area
   std::vector<Element> elements_;
   std::vector<std::vector<int32_t>> levels_;

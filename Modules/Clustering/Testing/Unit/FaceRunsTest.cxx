@@ -65,6 +65,34 @@ TEST(FaceRuns, GiveFramesThatHoldTheFaces) {
   }
 }
 
+// What lies within what was met does not move the box.
+TEST(FaceRuns, GiveTheFramesOfTheFaces) {
+  for (TriangleMesh mesh : ManyFaces()) {
+    const ClusterTree tree = ClusterFaces(&mesh, std::vector<Part>(3));
+    const FaceRuns runs(mesh);
+    for (const int32_t root : tree.surfaceRoots) {
+      const ClusterNode& node = tree.nodes[size_t(root)];
+      const ClusterFrame frame = ComputeClusterFrame(runs, node);
+      Vec3d low, high;
+      for (int32_t face = node.firstFace; face < node.firstFace + node.faceCount; ++face) {
+        for (int corner = 0; corner < 3; ++corner) {
+          const Vec3d offset = Vec3d(mesh.Corner(face, corner)) - Vec3d(frame.center);
+          for (int k = 0; k < 3; ++k) {
+            const double along = Dot(offset, Vec3d(frame.axes[size_t(k)]));
+            low[k] = std::min(low[k], along), high[k] = std::max(high[k], along);
+          }
+        }
+      }
+      // As tight as floats tell.
+      const float size = node.bounds.Diagonal();
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_NEAR(high[k], double(frame.halfExtent[k]), 1e-6 * double(size));
+        ASSERT_NEAR(low[k], -double(frame.halfExtent[k]), 1e-6 * double(size));
+      }
+    }
+  }
+}
+
 TEST(FaceRuns, FindTheNormalFarthestFromAnAxis) {
   for (TriangleMesh mesh : ManyFaces()) {
     const ClusterTree tree = ClusterFaces(&mesh, std::vector<Part>(3));
@@ -92,7 +120,8 @@ TEST(FaceRuns, MeetEveryPoint) {
     for (const int32_t root : tree.surfaceRoots) {
       const ClusterNode& node = tree.nodes[size_t(root)];
       std::set<Vec3f, decltype(isBefore)> met(isBefore), expected(isBefore);
-      runs.ForEachPoint(node, [&](const Vec3f& p) { met.insert(p); });
+      runs.ForEachOuterPoint(
+          node, [&](const Vec3f& p) { met.insert(p); }, [](const Box3f&) { return false; });
       for (int32_t face = node.firstFace; face < node.firstFace + node.faceCount; ++face) {
         for (int k = 0; k < 3; ++k) expected.insert(mesh.Corner(face, k));
       }
