@@ -110,8 +110,8 @@ IrradianceSample GatheredPoints::SampleOf(const Record& record) const {
 }
 
 void GatheredPoints::GatherNew(int32_t first, int64_t* rays, const ProgressCallback& progress) {
-  std::vector<GatherPoint> places;
-  for (size_t i = size_t(first); i < records_.size(); ++i) places.push_back(records_[i].at);
+  std::vector<GatherPoint> places(records_.size() - size_t(first));
+  for (size_t i = 0; i < places.size(); ++i) places[i] = records_[size_t(first) + i].at;
   BounceRays bounce;
   bounce.count = options_.firstRays;
   bounce.first = uint32_t(first);
