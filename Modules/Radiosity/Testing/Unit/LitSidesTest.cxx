@@ -62,8 +62,8 @@ TEST(LitSides, AScreenKeepsTheFloorDark) {
 }
 
 TEST(LitSides, FinelyCurvedThingsAreDarkInside) {
-  // Beads whose facets turn by 6 degrees, some lengths wide that rays skip: one ray in a hundred
-  // from within would skip the next facet, or rounding would bring it to the other side.
+  // Beads whose facets turn by 6 degrees, some lengths wide that rays skip: flat rays from within
+  // would skip the next facet, or rounding would bring them to the other side.
   constexpr int kBeads = 40;
   Scene scene = FloorUnderLamp(4, 1);
   for (int bead = 0; bead < kBeads; ++bead) {
