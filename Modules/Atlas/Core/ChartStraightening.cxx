@@ -15,6 +15,8 @@ namespace {
 
 /// Directions of lines that are tried.
 constexpr int kDirections = 16;
+/// Strips along a line that faces are sorted into before it is looked for.
+constexpr size_t kStrips = 64;
 /// Of the area of two charts, what either has at least.
 constexpr double kLeastPart = 0.05;
 /// Rounds after which borders are left as they are.
@@ -34,7 +36,8 @@ struct Bounds {
     low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y)};
     high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y)};
   }
-  double Area() const { return (high.x - low.x) * (high.y - low.y); }
+  /// Of none 0.
+  double Area() const { return high.x >= low.x ? (high.x - low.x) * (high.y - low.y) : 0; }
 };
 
 /// Faces of the charts by number, and those beyond their edges: places among them, or -1.
@@ -86,54 +89,115 @@ std::vector<std::array<int32_t, 2>> Emptiest(const std::vector<ChartBorder>& bor
   return pairs;
 }
 
+/// Faces in strips along a line. A cut between two of a strip is looked for only where whatever
+/// lies before the strip and beyond it leaves hope.
+class Strips {
+ public:
+  explicit Strips(const std::vector<std::array<Vec2d, 3>>& faces)
+      : faces_(faces), bounds_(faces.size()), across_(faces.size()), stripOf_(faces.size()) {
+    for (const auto& face : faces) {
+      area_.push_back(AreaOf(face));
+      whole_ += area_.back();
+    }
+  }
+
+  /// Lines at another angle.
+  void Turn(double angle) {
+    // Faces across the line, by their middles.
+    const double c = std::cos(angle), s = std::sin(angle);
+    double low = std::numeric_limits<double>::max(), high = -low;
+    for (size_t i = 0; i < faces_.size(); ++i) {
+      bounds_[i] = {};
+      across_[i] = 0;
+      for (const Vec2d& p : faces_[i]) {
+        const Vec2d turned(c * p.x + s * p.y, c * p.y - s * p.x);
+        bounds_[i].Include({turned, turned});
+        across_[i] += turned.x;
+      }
+      low = std::min(low, across_[i]);
+      high = std::max(high, across_[i]);
+    }
+
+    // What lies in each strip, before and beyond.
+    before_.fill({});
+    beyond_.fill({});
+    partBefore_.fill(0);
+    const double scale = high > low ? double(kStrips) / (high - low) : 0;
+    for (size_t i = 0; i < faces_.size(); ++i) {
+      const size_t strip = std::min(kStrips - 1, size_t((across_[i] - low) * scale));
+      stripOf_[i] = uint8_t(strip);
+      before_[strip + 1].Include(bounds_[i]);
+      beyond_[strip].Include(bounds_[i]);
+      partBefore_[strip + 1] += area_[i];
+    }
+    for (size_t strip = 0; strip < kStrips; ++strip) {
+      before_[strip + 1].Include(before_[strip]);
+      partBefore_[strip + 1] += partBefore_[strip];
+    }
+    for (size_t strip = kStrips; strip-- > 0;) beyond_[strip].Include(beyond_[strip + 1]);
+  }
+
+  /// A line between each two faces of a strip, and between them and what lies beyond.
+  void TryCutsWithin(size_t strip, StraightCut* best) {
+    const auto most = [&](double part) { return part > (1 - kLeastPart) * whole_; };
+    const auto least = [&](double part) { return part < kLeastPart * whole_; };
+    if (least(partBefore_[strip + 1]) || most(partBefore_[strip])) return;
+    if (before_[strip].Area() + beyond_[strip + 1].Area() >= best->rectangles) return;
+    within_.clear();
+    for (size_t i = 0; i < faces_.size(); ++i) {
+      if (stripOf_[i] == strip) within_.emplace_back(across_[i], i);
+    }
+    std::sort(within_.begin(), within_.end());
+    beyondEach_.assign(within_.size() + 1, beyond_[strip + 1]);
+    for (size_t i = within_.size(); i-- > 0;) {
+      beyondEach_[i] = beyondEach_[i + 1];
+      beyondEach_[i].Include(bounds_[within_[i].second]);
+    }
+    Bounds before = before_[strip];
+    double part = partBefore_[strip];
+    std::pair<double, size_t> cut;
+    bool isBetter = false;
+    for (size_t i = 0; i < within_.size(); ++i) {
+      before.Include(bounds_[within_[i].second]);
+      part += area_[within_[i].second];
+      if (least(part) || most(part)) continue;
+      const double rectangles = before.Area() + beyondEach_[i + 1].Area();
+      if (!(rectangles < best->rectangles)) continue;
+      best->rectangles = rectangles;
+      cut = within_[i];
+      isBetter = true;
+    }
+    if (!isBetter) return;
+    best->side.resize(faces_.size());
+    for (size_t i = 0; i < faces_.size(); ++i) {
+      best->side[i] = std::make_pair(across_[i], i) > cut;
+    }
+  }
+
+ private:
+  const std::vector<std::array<Vec2d, 3>>& faces_;
+  std::vector<double> area_;
+  double whole_ = 0;  ///< of all areas
+  std::vector<Bounds> bounds_;
+  std::vector<double> across_;
+  std::vector<uint8_t> stripOf_;
+  /// Of the strips before each, and from each on.
+  std::array<Bounds, kStrips + 1> before_, beyond_;
+  std::array<double, kStrips + 1> partBefore_;
+  /// Of the faces of a strip one after the other across it.
+  std::vector<std::pair<double, size_t>> within_;
+  std::vector<Bounds> beyondEach_;
+};
+
 }  // namespace
 
-StraightCut BestStraightCut(const std::vector<std::array<Vec2d, 3>>& faces) {
-  const size_t count = faces.size();
-  std::vector<double> area(count), across(count);
-  for (size_t i = 0; i < count; ++i) area[i] = AreaOf(faces[i]);
-  const double whole = std::accumulate(area.begin(), area.end(), 0.);
+StraightCut BestStraightCut(const std::vector<std::array<Vec2d, 3>>& faces, double most) {
   StraightCut best;
-  best.rectangles = std::numeric_limits<double>::max();
-  std::vector<Bounds> bounds(count), beyond(count + 1);
-  std::vector<size_t> order(count);
+  best.rectangles = most;
+  Strips strips(faces);
   for (int direction = 0; direction < kDirections; ++direction) {
-    // Faces one after the other across the line, by their middles.
-    const double angle = kPi * direction / kDirections, c = std::cos(angle), s = std::sin(angle);
-    for (size_t i = 0; i < count; ++i) {
-      bounds[i] = {};
-      across[i] = 0;
-      for (const Vec2d& p : faces[i]) {
-        const Vec2d turned(c * p.x + s * p.y, c * p.y - s * p.x);
-        bounds[i].Include({turned, turned});
-        across[i] += turned.x;
-      }
-    }
-    std::iota(order.begin(), order.end(), size_t(0));
-    std::sort(order.begin(), order.end(), [&](size_t i, size_t j) {
-      return across[i] != across[j] ? across[i] < across[j] : i < j;
-    });
-
-    // A line between each two of them.
-    for (size_t i = count; i-- > 0;) {
-      beyond[i] = beyond[i + 1];
-      beyond[i].Include(bounds[order[i]]);
-    }
-    Bounds before;
-    double part = 0;
-    size_t cut = 0;
-    for (size_t i = 0; i + 1 < count; ++i) {
-      before.Include(bounds[order[i]]);
-      part += area[order[i]];
-      if (part < kLeastPart * whole || part > (1 - kLeastPart) * whole) continue;
-      const double rectangles = before.Area() + beyond[i + 1].Area();
-      if (!(rectangles < best.rectangles)) continue;
-      best.rectangles = rectangles;
-      cut = i + 1;
-    }
-    if (cut == 0) continue;
-    best.side.assign(count, 0);
-    for (size_t i = cut; i < count; ++i) best.side[order[i]] = 1;
+    strips.Turn(kPi * direction / kDirections);
+    for (size_t strip = 0; strip < kStrips; ++strip) strips.TryCutsWithin(strip, &best);
   }
   return best;
 }
@@ -175,8 +239,8 @@ void KeepLargestPieces(const std::vector<int32_t>& neighbours, std::vector<uint8
 
 std::array<std::vector<int32_t>, 2> CutAnew(const std::vector<int32_t>& neighbours,
                                             const SideBySide& charts, double mostRectangles) {
-  const StraightCut cut = BestStraightCut(charts.places);
-  if (cut.side.empty() || cut.rectangles > mostRectangles) return {};
+  const StraightCut cut = BestStraightCut(charts.places, mostRectangles);
+  if (cut.side.empty()) return {};
   const Division division = Divide(neighbours, charts.faces);
   std::vector<uint8_t> side;
   for (const size_t i : division.order) side.push_back(cut.side[i]);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "Atlas/Core/ChartJoining.h"
@@ -13,13 +14,14 @@ namespace lambert {
 
 /// On which side of a line faces in the plane lie.
 struct StraightCut {
-  std::vector<uint8_t> side;  ///< by face, 0 or 1; empty where no line has enough on both sides
+  std::vector<uint8_t> side;  ///< by face, 0 or 1; empty where no line will do
   double rectangles = 0;      ///< m2, of those about both sides that lie along the line
 };
 
-/// The line whose two rectangles are smallest, of 16 directions, with a 20th of the area at least
-/// on either side. Corners of the faces, m.
-StraightCut BestStraightCut(const std::vector<std::array<Vec2d, 3>>& faces);
+/// The line whose two rectangles are smallest, of 16 directions, under `most` m2, with a 20th of
+/// the area at least on either side. Corners of the faces, m.
+StraightCut BestStraightCut(const std::vector<std::array<Vec2d, 3>>& faces,
+                            double most = std::numeric_limits<double>::max());
 
 /// A face with two neighbours beyond the line goes over to them. `neighbours` by corner, three a
 /// face: the face beyond its edge, -1 where there is none.
@@ -28,7 +30,7 @@ void RemoveTeeth(const std::vector<int32_t>& neighbours, std::vector<uint8_t>* s
 void KeepLargestPieces(const std::vector<int32_t>& neighbours, std::vector<uint8_t>* side);
 
 /// The faces of two charts as they lie side by side, on the two sides of their best line,
-/// ascending, each in one piece; none where the rectangles are larger than `mostRectangles`, m2.
+/// ascending, each in one piece; none where the rectangles are not under `mostRectangles`, m2.
 /// `neighbours` as FindNeighbours gives them.
 std::array<std::vector<int32_t>, 2> CutAnew(const std::vector<int32_t>& neighbours,
                                             const SideBySide& charts, double mostRectangles);

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "Atlas/Core/ChartSegmentation.h"
 #include "Atlas/Testing/Unit/AtlasMeshes.h"
 #include "Clustering/Core/ClusterFrame.h"
+#include "Common/Core/Random.h"
 
 namespace lambert {
 namespace {
@@ -41,6 +44,42 @@ TEST(ChartStraightening, AnLIsCutWhereItBends) {
   EXPECT_TRUE(isAs(along) || isAs(other));
   EXPECT_TRUE(BestStraightCut({}).side.empty());
   EXPECT_TRUE(BestStraightCut({AnL()[0]}).side.empty());
+}
+
+// Of thousands of faces most cuts are not looked at one by one.
+TEST(ChartStraightening, NoCutBetweenTwoFacesIsBetter) {
+  Random random(3);
+  std::vector<std::array<Vec2d, 3>> faces;
+  for (int i = 0; i < 500; ++i) {
+    const Vec2d p(2 * random.UniformDouble(), random.UniformDouble());
+    faces.push_back({p, p + Vec2d(0.01, 0), p + Vec2d(0, 0.02)});
+  }
+  const StraightCut cut = BestStraightCut(faces);
+
+  // The rectangles of all faces before each, and from each on, along either axis.
+  const auto area = [&](const std::vector<std::array<Vec2d, 3>>& part) {
+    Vec2d low = part[0][0], high = low;
+    for (const auto& face : part) {
+      for (const Vec2d& p : face) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+      }
+    }
+    return (high.x - low.x) * (high.y - low.y);
+  };
+  for (const bool isAcross : {false, true}) {
+    std::sort(faces.begin(), faces.end(), [&](const auto& a, const auto& b) {
+      return isAcross ? a[0].x < b[0].x : a[0].y < b[0].y;
+    });
+    for (auto middle = faces.begin() + 25; middle <= faces.end() - 25; ++middle) {
+      EXPECT_GE(area({faces.begin(), middle}) + area({middle, faces.end()}),
+                cut.rectangles * (1 - 1e-12));
+    }
+  }
+
+  // Asked for better ones there are none.
+  EXPECT_TRUE(BestStraightCut(faces, cut.rectangles).side.empty());
+  EXPECT_FALSE(BestStraightCut(faces, cut.rectangles * 1.001).side.empty());
 }
 
 TEST(ChartStraightening, TeethAndIslandsGoOver) {
