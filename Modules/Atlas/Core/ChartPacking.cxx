@@ -1,13 +1,12 @@
 #include "Atlas/Core/ChartPacking.h"
 
 #include <algorithm>
-#include <array>
+#include <bitset>
 #include <limits>
 #include <numeric>
 #include <tuple>
 
 #include "Common/Core/Error.h"
-#include "Common/Core/Parallel.h"
 
 namespace lambert {
 
@@ -24,33 +23,29 @@ constexpr int kCell = 4, kMostCells = 512;
 constexpr int kMostHoles = 512, kPasses = 4;
 constexpr int kLeastHole = 6;  ///< texels along its shorter side
 
-/// A mask, and what it takes of each column.
-struct Shape {
-  ChartMask mask;
-  std::vector<int> low, high;
-  int mostLow = 0;   ///< of `low`
-  int64_t area = 0;  ///< texels
+/// Columns whose highest top is looked for at once.
+constexpr int kColumns = 64;
 
-  explicit Shape(ChartMask mask_ = {}) : mask(std::move(mask_)) {
-    for (int x = 0; x < mask.Width(); ++x) {
-      int first = 0, last = mask.Height();
-      while (first < last && !mask.IsTaken(x, first)) ++first;
-      while (last > first && !mask.IsTaken(x, last - 1)) --last;
-      low.push_back(first);
-      mostLow = std::max(mostLow, first);
-      high.push_back(last);
-      for (int y = first; y < last; ++y) area += mask.IsTaken(x, y);
-    }
+int LowestBit(uint64_t word) { return __builtin_ctzll(word); }
+/// Zeros above the highest bit.
+int ZerosAbove(uint64_t word) { return __builtin_clzll(word); }
+
+/// Whether any of `count` bits from `first` on is set.
+bool IsAnySet(const std::vector<uint64_t>& words, int first, int count) {
+  for (int bit = first; bit < first + count;) {
+    const int end = std::min(first + count, (bit / 64 + 1) * 64);
+    const uint64_t ones = ~uint64_t(0) >> (64 - (end - bit));
+    if (words[size_t(bit / 64)] & ones << (bit % 64)) return true;
+    bit = end;
   }
-  int Width() const { return mask.Width(); }
-  int Height() const { return mask.Height(); }
-};
+  return false;
+}
 
 /// A rectangle of a page that is filled from below.
 class Bin {
  public:
   Bin(int x, int y, int width, int height)
-      : x_(x), y_(y), height_(height), top_(size_t(width), 0) {}
+      : x_(x), y_(y), height_(height), top_(size_t(width), 0), topSum_(size_t(width) + 1, 0) {}
 
   struct Spot {
     int x = -1, y = 0;
@@ -59,7 +54,7 @@ class Bin {
 
   /// Where the chart comes to lie lowest and leaves least empty, in the bin, at less than `cost`;
   /// x < 0: nowhere.
-  Spot Find(const Shape& chart, double cost) const {
+  Spot Find(const ChartShape& chart, double cost) const {
     Spot best;
     best.cost = cost;
     const int width = chart.Width();
@@ -78,29 +73,22 @@ class Bin {
         x = last;
         continue;
       }
-
-      // As low as it falls.
-      int y = 0;
-      for (int i = 0; i < width; ++i) {
-        y = std::max(y, top_[size_t(x + i)] - chart.low[size_t(i)]);
-      }
-      if (isTooHigh(y)) continue;
-      int64_t waste = 0;
-      for (int i = 0; i < width; ++i) waste += y + chart.low[size_t(i)] - top_[size_t(x + i)];
-      const double found = y + chart.Height() + kWaste * double(waste) / width;
-      if (found < best.cost) best = {x, y, found};
+      const Spot found = this->Fall(chart, x, best.cost);
+      if (found.cost < best.cost) best = found;
     }
     return best;
   }
 
   /// Returns its place on the page, and adds the texels that stay empty within and below it.
-  std::array<int, 2> Put(const Shape& chart, const Spot& spot, int64_t* empty) {
+  std::array<int, 2> Put(const ChartShape& chart, const Spot& spot, int64_t* empty) {
     *empty -= chart.area;
     for (int i = 0; i < chart.Width(); ++i) {
-      *empty += spot.y + chart.high[size_t(i)] - top_[size_t(spot.x + i)];
-      top_[size_t(spot.x + i)] = spot.y + chart.high[size_t(i)];
+      int16_t& top = top_[size_t(spot.x + i)];
+      *empty += spot.y + chart.high[size_t(i)] - top;
+      top = int16_t(spot.y + chart.high[size_t(i)]);
     }
     least_ = *std::min_element(top_.begin(), top_.end());
+    for (size_t i = size_t(spot.x); i < top_.size(); ++i) topSum_[i + 1] = topSum_[i] + top_[i];
     return {x_ + spot.x, y_ + spot.y};
   }
 
@@ -108,8 +96,32 @@ class Bin {
   int Height() const { return *std::max_element(top_.begin(), top_.end()); }
 
  private:
+  /// As low as it falls from a column on; at any cost of `most` or more where that is sure.
+  Spot Fall(const ChartShape& chart, int x, double most) const {
+    const int width = chart.Width();
+    const int64_t gaps = chart.lowSum - topSum_[size_t(x + width)] + topSum_[size_t(x)];
+    const auto costAt = [&](int y) {
+      return y + chart.Height() + kWaste * double(width * int64_t(y) + gaps) / width;
+    };
+    // It lies no lower than where it would leave nothing empty.
+    Spot spot{x, int(std::max<int64_t>(0, -gaps / width)), 0};
+    spot.cost = costAt(spot.y);
+    const int16_t *top = top_.data() + x, *low = chart.low.data();
+    for (int begin = 0; begin < width && spot.cost < most; begin += kColumns) {
+      int16_t highest = 0;
+      for (int i = begin; i < std::min(width, begin + kColumns); ++i) {
+        highest = std::max(highest, int16_t(top[i] - low[i]));
+      }
+      spot.y = std::max(spot.y, int(highest));
+      if (spot.y + chart.Height() > height_) return {};
+      spot.cost = costAt(spot.y);
+    }
+    return spot;
+  }
+
   int x_, y_, height_, least_ = 0;
-  std::vector<int> top_;
+  std::vector<int16_t> top_;
+  std::vector<int64_t> topSum_;  ///< of the columns before each
 };
 
 /// A page: what is taken of it, and the holes below its top.
@@ -118,7 +130,7 @@ class Page {
   explicit Page(int size) : size_(size), all_(0, 0, size, size), taken_(size, size) {}
 
   /// True, with the place, where the chart fits in one of its four ways.
-  bool Put(const std::array<Shape, 4>& turned, ChartPlace* place) {
+  bool Put(const TurnedChart& turned, ChartPlace* place) {
     // Into a hole, the smallest that has room; else on top.
     if (double(empty_) > kEmptyPart * size_ * size_) this->FindHoles();
     for (size_t hole = holes_.size(); hole-- > 0;) {
@@ -132,19 +144,18 @@ class Page {
  private:
   struct Cells {
     int x = 0, y = 0, width = 0, height = 0;
-    int Area() const { return width * height; }
+    /// The largest first; then the leftmost, the lowest and the narrowest. All within 16 bits.
+    uint64_t Rank() const {
+      const uint64_t area = uint64_t(width) * uint64_t(height);
+      return ~area << 40 | uint64_t(x) << 28 | uint64_t(y) << 14 | uint64_t(width);
+    }
   };
 
   /// The largest rectangles of cells that nothing takes, and the largest of what they leave.
   void FindHoles() {
     const int cell = std::max(kCell, size_ / kMostCells), cells = size_ / cell;
     const int least = (kLeastHole + cell - 1) / cell;
-    std::vector<uint8_t> isFree(size_t(cells) * size_t(cells));
-    ParallelForEach(cells, 8, [&](int64_t x) {
-      for (int y = 0; y < cells; ++y) {
-        isFree[size_t(x) * size_t(cells) + size_t(y)] = this->IsFree(int(x) * cell, y * cell, cell);
-      }
-    });
+    std::vector<uint8_t> isFree = this->FreeCells(cell, cells);
     std::vector<Cells> found;
     for (int pass = 0; pass < kPasses; ++pass) {
       for (const Cells& hole : Rectangles(isFree, cells, least)) {
@@ -159,11 +170,27 @@ class Page {
     }
   }
 
+  /// Cells of so many texels along a side, column after column, that lie free below the top.
+  std::vector<uint8_t> FreeCells(int cell, int cells) const {
+    std::vector<uint8_t> isFree(size_t(cells) * size_t(cells));
+    std::vector<uint64_t> taken(size_t(taken_.WordsOfColumn()));
+    for (int x = 0; x < cells; ++x) {
+      std::fill(taken.begin(), taken.end(), uint64_t(0));
+      int top = size_;
+      for (int i = x * cell; i < (x + 1) * cell; ++i) {
+        top = std::min(top, all_.Top(i));
+        for (size_t w = 0; w < taken.size(); ++w) taken[w] |= taken_.Column(i)[w];
+      }
+      for (int y = 0; y < top / cell; ++y) {
+        isFree[size_t(x) * size_t(cells) + size_t(y)] = !IsAnySet(taken, y * cell, cell);
+      }
+    }
+    return isFree;
+  }
+
   static void SortByArea(std::vector<Cells>* holes) {
-    std::sort(holes->begin(), holes->end(), [](const Cells& a, const Cells& b) {
-      return std::make_tuple(-a.Area(), a.x, a.y, a.width) <
-             std::make_tuple(-b.Area(), b.x, b.y, b.width);
-    });
+    std::sort(holes->begin(), holes->end(),
+              [](const Cells& a, const Cells& b) { return a.Rank() < b.Rank(); });
   }
 
   /// False where one of them is not free.
@@ -178,7 +205,7 @@ class Page {
     return true;
   }
 
-  bool PutInto(const std::array<Shape, 4>& turned, Bin* bin, ChartPlace* place) {
+  bool PutInto(const TurnedChart& turned, Bin* bin, ChartPlace* place) {
     Bin::Spot best;
     for (int turns = 0; turns < 4; ++turns) {
       const Bin::Spot spot = bin->Find(turned[size_t(turns)], best.cost);
@@ -187,28 +214,11 @@ class Page {
       place->turns = turns;
     }
     if (best.x < 0) return false;
-    const Shape& chart = turned[size_t(place->turns)];
+    const ChartShape& chart = turned[size_t(place->turns)];
     const std::array<int, 2> corner = bin->Put(chart, best, &empty_);
     place->x = corner[0];
     place->y = corner[1];
-    for (int x = 0; x < chart.Width(); ++x) {
-      for (int y = 0; y < chart.Height();) {
-        int end = y;
-        while (end < chart.Height() && chart.mask.IsTaken(x, end)) ++end;
-        if (end > y) taken_.Take(corner[0] + x, corner[1] + y, corner[1] + end);
-        y = end + 1;
-      }
-    }
-    return true;
-  }
-
-  bool IsFree(int left, int low, int cell) const {
-    for (int x = left; x < left + cell; ++x) {
-      if (low + cell > all_.Top(x)) return false;
-      for (int y = low; y < low + cell; ++y) {
-        if (taken_.IsTaken(x, y)) return false;
-      }
-    }
+    taken_.Take(chart.mask, corner[0], corner[1]);
     return true;
   }
 
@@ -249,50 +259,41 @@ class Page {
 
 }  // namespace
 
-ChartMask::ChartMask(int width, int height)
-    : width_(width),
-      height_(height),
-      words_((height + 63) / 64),
-      bits_(size_t(width) * size_t(words_), 0) {}
-
-void ChartMask::Take(int x, int low, int high) {
-  for (int y = low; y < high;) {
-    const int end = std::min(high, (y / 64 + 1) * 64);
-    const uint64_t ones = ~uint64_t(0) >> (64 - (end - y));
-    bits_[this->Word(x, y)] |= ones << (y % 64);
-    y = end;
+ChartShape::ChartShape(ChartMask mask_) : mask(std::move(mask_)) {
+  const int words = mask.WordsOfColumn();
+  for (int x = 0; x < mask.Width(); ++x) {
+    const uint64_t* column = mask.Column(x);
+    int first = 0, last = words;
+    while (first < last && column[first] == 0) ++first;
+    while (last > first && column[last - 1] == 0) --last;
+    const bool isEmpty = first == last;
+    low.push_back(int16_t(isEmpty ? mask.Height() : 64 * first + LowestBit(column[first])));
+    high.push_back(isEmpty ? low.back() : int16_t(64 * last - ZerosAbove(column[last - 1])));
+    mostLow = std::max(mostLow, int(low.back()));
+    lowSum += low.back();
+    for (int w = first; w < last; ++w) area += int64_t(std::bitset<64>(column[w]).count());
   }
 }
 
-ChartMask ChartMask::Turned() const {
-  // What was row y is column y from the right.
-  ChartMask turned(height_, width_);
-  for (int x = 0; x < width_; ++x) {
-    for (int y = 0; y < height_; ++y) {
-      if (this->IsTaken(x, y)) turned.Take(height_ - 1 - y, x, x + 1);
-    }
-  }
+TurnedChart TurnFourWays(ChartMask mask) {
+  TurnedChart turned;
+  turned[0] = ChartShape(std::move(mask));
+  for (size_t t = 1; t < 4; ++t) turned[t] = ChartShape(turned[t - 1].mask.Turned());
   return turned;
 }
 
-Packing PackCharts(const std::vector<ChartMask>& charts, int pageSize, PackingOrder by) {
-  // The four ways to lay each.
-  std::vector<std::array<Shape, 4>> turned(charts.size());
-  for (const ChartMask& chart : charts) {
+Packing PackCharts(const std::vector<TurnedChart>& charts, int pageSize, PackingOrder by) {
+  for (const TurnedChart& ways : charts) {
+    const ChartShape& chart = ways[0];
     if (std::max(chart.Height(), chart.Width()) <= pageSize) continue;
     throw Error("A chart of " + std::to_string(chart.Width()) + " x " +
                 std::to_string(chart.Height()) + " texels does not fit on a page of " +
                 std::to_string(pageSize) + "; take larger pages or larger texels.");
   }
-  ParallelForEach(int64_t(charts.size()), 4, [&](int64_t i) {
-    std::array<Shape, 4>& ways = turned[size_t(i)];
-    ways[0] = Shape(charts[size_t(i)]);
-    for (size_t t = 1; t < 4; ++t) ways[t] = Shape(ways[t - 1].mask.Turned());
-  });
 
   // The largest first, as `by` tells; of equal ones the longest.
   const auto rank = [&](int32_t i) {
-    const ChartMask& chart = charts[size_t(i)];
+    const ChartShape& chart = charts[size_t(i)][0];
     const int64_t width = chart.Width(), height = chart.Height();
     int64_t first = 0;
     switch (by) {
@@ -305,7 +306,7 @@ Packing PackCharts(const std::vector<ChartMask>& charts, int pageSize, PackingOr
         first = width + height;
         break;
       case PackingOrder::LargestArea:
-        first = turned[size_t(i)][0].area;
+        first = chart.area;
         break;
     }
     return std::make_tuple(-first, -std::max(width, height), -std::min(width, height), i);
@@ -317,13 +318,13 @@ Packing PackCharts(const std::vector<ChartMask>& charts, int pageSize, PackingOr
   // Page after page; what does not fit waits for the next.
   Packing packing;
   packing.places.resize(charts.size());
-  for (const std::array<Shape, 4>& ways : turned) packing.takenTexels += ways[0].area;
+  for (const TurnedChart& ways : charts) packing.takenTexels += ways[0].area;
   while (!order.empty()) {
     Page page(pageSize);
     std::vector<int32_t> left;
     for (const int32_t i : order) {
       packing.places[size_t(i)].page = packing.pages;
-      if (!page.Put(turned[size_t(i)], &packing.places[size_t(i)])) left.push_back(i);
+      if (!page.Put(charts[size_t(i)], &packing.places[size_t(i)])) left.push_back(i);
     }
     ++packing.pages;
     packing.lastHeight = page.Height();

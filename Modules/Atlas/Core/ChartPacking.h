@@ -2,34 +2,30 @@
 // outline (levy2002); small ones fill the holes that large ones leave.
 #pragma once
 
-#include <cstddef>
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "Atlas/Core/ChartMask.h"
+
 namespace lambert {
 
-/// The texels that a chart takes, padding and all.
-class ChartMask {
- public:
-  ChartMask() = default;
-  /// None taken; width and height in texels, [1, inf).
-  ChartMask(int width, int height);
+/// A chart laid one of four ways, and what it takes of each column.
+struct ChartShape {
+  ChartMask mask;
+  /// By column: the texels [low, high) that its outline spans; pages are short enough for 16 bits.
+  std::vector<int16_t> low, high;
+  int mostLow = 0;               ///< of `low`
+  int64_t lowSum = 0, area = 0;  ///< of `low`; texels taken
 
-  int Width() const { return width_; }
-  int Height() const { return height_; }
-  bool IsTaken(int x, int y) const { return bits_[this->Word(x, y)] >> (y % 64) & 1; }
-  /// Texels [low, high) of a column.
-  void Take(int x, int low, int high);
-  /// Turned left by a quarter.
-  ChartMask Turned() const;
-
- private:
-  size_t Word(int x, int y) const { return size_t(x) * size_t(words_) + size_t(y / 64); }
-
-  int width_ = 0, height_ = 0;
-  int words_ = 0;  ///< a column
-  std::vector<uint64_t> bits_;
+  ChartShape() = default;
+  explicit ChartShape(ChartMask mask);
+  int Width() const { return mask.Width(); }
+  int Height() const { return mask.Height(); }
 };
+/// After none, one, two and three quarter turns to the left.
+using TurnedChart = std::array<ChartShape, 4>;
+TurnedChart TurnFourWays(ChartMask mask);
 
 /// Where a chart lies: its mask, after `turns` quarter turns to the left, with its lower left
 /// corner at (x, y) of a page.
@@ -52,7 +48,7 @@ constexpr PackingOrder kPackingOrders[] = {PackingOrder::Longest, PackingOrder::
 
 /// Charts on pages of `pageSize` x `pageSize` texels; as many pages as it takes.
 /// Throws Error for a chart that is larger than a page.
-Packing PackCharts(const std::vector<ChartMask>& charts, int pageSize,
+Packing PackCharts(const std::vector<TurnedChart>& charts, int pageSize,
                    PackingOrder order = PackingOrder::Longest);
 
 }  // namespace lambert

@@ -80,13 +80,46 @@ Rectangle RectangleOf(const ChartSet& set, const Chart& chart) {
   return rectangle;
 }
 
+using Edge = std::array<Vec2d, 2>;
+
+/// Edges of a single face of the chart, along the sides of its rectangle, m.
+std::vector<Edge> BorderOf(const ChartSet& set, const Chart& chart, const Rectangle& rectangle) {
+  struct Side {
+    int32_t low, high;  ///< corners of the chart
+    Edge edge;
+    bool IsAlong(const Side& other) const { return low == other.low && high == other.high; }
+  };
+  std::vector<Side> sides;
+  for (const int32_t face : set.FacesOf(chart)) {
+    const auto& corners = set.corners[size_t(face)];
+    const auto& places = set.places[size_t(face)];
+    for (size_t c = 0; c < 3; ++c) {
+      const size_t next = (c + 1) % 3;
+      const auto [low, high] = std::minmax(corners[c], corners[next]);
+      sides.push_back({low, high, {rectangle.Inside(places[c]), rectangle.Inside(places[next])}});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return std::tie(a.low, a.high) < std::tie(b.low, b.high);
+  });
+  std::vector<Edge> border;
+  for (size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end].IsAlong(sides[begin])) ++end;
+    if (end - begin == 1) border.push_back(sides[begin].edge);
+  }
+  return border;
+}
+
 /// Charts at a number of texels a metre.
 class Layout {
  public:
   Layout(const ChartSet& set, const AtlasOptions& options) : set_(set), options_(options) {
     rectangles_.resize(set.charts.size());
+    borders_.resize(set.charts.size());
     ParallelForEach(int64_t(set.charts.size()), 16, [&](int64_t i) {
-      rectangles_[size_t(i)] = RectangleOf(set, set.charts[size_t(i)]);
+      const Chart& chart = set.charts[size_t(i)];
+      rectangles_[size_t(i)] = RectangleOf(set, chart);
+      borders_[size_t(i)] = BorderOf(set, chart, rectangles_[size_t(i)]);
     });
     for (const Rectangle& r : rectangles_) longest_ = std::max(longest_, r.width);
     for (const auto& p : set.places) {
@@ -114,10 +147,11 @@ class Layout {
   }
 
   Packing Pack(double density, PackingOrder order) const {
-    std::vector<ChartMask> masks(set_.charts.size());
-    ParallelForEach(int64_t(masks.size()), 16,
-                    [&](int64_t i) { masks[size_t(i)] = this->Mask(size_t(i), density); });
-    return PackCharts(masks, options_.pageSize, order);
+    std::vector<TurnedChart> charts(set_.charts.size());
+    ParallelForEach(int64_t(charts.size()), 16, [&](int64_t i) {
+      charts[size_t(i)] = TurnFourWays(this->Mask(size_t(i), density));
+    });
+    return PackCharts(charts, options_.pageSize, order);
   }
 
   /// By how much `density` may grow so that charts take `factor` times as many texels as they do in
@@ -131,10 +165,7 @@ class Layout {
 
   /// Texels from the lower left corner of what the chart takes, amid which it lies.
   Vec2d TexelsOf(size_t chart, const Vec2f& place, double density) const {
-    const Rectangle& r = rectangles_[chart];
-    const std::array<int, 2> size = this->Size(chart, density);
-    const Vec2d rest(size[0] - r.width * density, size[1] - r.height * density);
-    return r.Inside(place) * density + rest * 0.5;
+    return rectangles_[chart].Inside(place) * density + this->Corner(chart, density);
   }
   /// The texels that it takes in all.
   std::array<int, 2> Size(size_t chart, double density) const {
@@ -144,17 +175,27 @@ class Layout {
   }
 
  private:
-  // Each triangle takes the texels that it touches, and those of the padding around them.
+  /// Of its rectangle amid the texels that it takes.
+  Vec2d Corner(size_t chart, double density) const {
+    const Rectangle& r = rectangles_[chart];
+    const std::array<int, 2> size = this->Size(chart, density);
+    return Vec2d(size[0] - r.width * density, size[1] - r.height * density) * 0.5;
+  }
+
+  // The border takes the texels that it touches, and those of the padding around them; what is not
+  // near it lies within or without.
   ChartMask Mask(size_t index, double density) const {
-    const Chart& chart = set_.charts[index];
     const auto [width, height] = this->Size(index, density);
+    const Vec2d corner = this->Corner(index, density);
+    std::vector<Edge> border = borders_[index];
     ChartMask mask(width, height);
-    for (const int32_t f : set_.FacesOf(chart)) {
-      std::array<Vec2d, 3> corners;
-      for (size_t c = 0; c < 3; ++c) {
-        corners[c] = this->TexelsOf(index, set_.places[size_t(f)][c], density);
-      }
-      ForEachColumnNear(corners, Margin(options_), width, height,
+    for (Edge& edge : border) {
+      edge = {edge[0] * density + corner, edge[1] * density + corner};
+      ForEachCrossing(edge[0], edge[1], [&](int x, int y) { mask.Cross(x, y); });
+    }
+    mask.FillBetweenCrossings();
+    for (const Edge& edge : border) {
+      ForEachColumnNear(edge, Margin(options_), width, height,
                         [&](int x, int low, int high) { mask.Take(x, low, high); });
     }
     return mask;
@@ -163,6 +204,7 @@ class Layout {
   const ChartSet& set_;
   const AtlasOptions& options_;
   std::vector<Rectangle> rectangles_;
+  std::vector<std::vector<Edge>> borders_;
   double longest_ = 0, area_ = 0;
 };
 

@@ -46,20 +46,32 @@ inline void IncludeEdge(Vec2d a, Vec2d b, double left, double right, double* low
 }
 
 /// Calls visit(x, low, high) for every column of texels within `width` x `height` that come nearer
-/// to the triangle than `margin`, >= 0, along an axis: those of rows [low, high).
-template <class Visit>
-void ForEachColumnNear(const std::array<Vec2d, 3>& corners, double margin, int width, int height,
-                       const Visit& visit) {
-  const double left = std::min({corners[0].x, corners[1].x, corners[2].x}) - margin;
-  const double right = std::max({corners[0].x, corners[1].x, corners[2].x}) + margin;
+/// to the triangle or edge than `margin`, >= 0, along an axis: those of rows [low, high).
+template <size_t Corners, class Visit>
+void ForEachColumnNear(const std::array<Vec2d, Corners>& corners, double margin, int width,
+                       int height, const Visit& visit) {
+  const auto [first, last] = std::minmax_element(
+      corners.begin(), corners.end(), [](const Vec2d& a, const Vec2d& b) { return a.x < b.x; });
+  const double left = first->x - margin, right = last->x + margin;
   for (int x = std::max(0, int(left)); x <= std::min(width - 1, int(right)); ++x) {
     double low = height, high = 0;
-    for (size_t c = 0; c < 3; ++c) {
-      IncludeEdge(corners[c], corners[(c + 1) % 3], x - margin, x + 1 + margin, &low, &high);
+    for (size_t c = 0; c + (Corners == 2) < Corners; ++c) {
+      IncludeEdge(corners[c], corners[(c + 1) % Corners], x - margin, x + 1 + margin, &low, &high);
     }
     if (low > high) continue;
     visit(x, std::max(0, int(std::floor(low - margin))),
           std::min(height, int(std::ceil(high + margin))));
+  }
+}
+
+/// Calls visit(x, y) for every column of texels whose middle line an edge crosses: y is the first
+/// row whose middle lies above. Lines that are closed cross each column an even number of times.
+template <class Visit>
+void ForEachCrossing(Vec2d a, Vec2d b, const Visit& visit) {
+  if (a.x > b.x) std::swap(a, b);
+  for (int x = int(std::ceil(a.x - 0.5)); x < int(std::ceil(b.x - 0.5)); ++x) {
+    const double part = std::min(1., std::max(0., (x + 0.5 - a.x) / (b.x - a.x)));
+    visit(x, int(std::ceil(a.y + part * (b.y - a.y) - 0.5)));
   }
 }
 
