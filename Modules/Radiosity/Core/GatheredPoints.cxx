@@ -62,7 +62,7 @@ std::vector<GatheredPoints::Light> GatheredPoints::At(const std::vector<Point>& 
   if (first < int32_t(records_.size())) {
     this->GatherNew(first, rays, progress);
     this->SampleAll();
-    const SampleNeighbours neighbours(samples_, first);
+    const SampleNeighbours neighbours(samples_, first, &gather_.Rays(), rays);
     this->LookIntoPenumbrae(first, neighbours, rays);
     this->ShareDirect(first, neighbours);
     this->GatherWhereItScatters(first, neighbours, rays, progress);
@@ -217,7 +217,7 @@ void GatheredPoints::Improve(double noise, int64_t* rays, const ProgressCallback
   options_.noise = noise;
   if (records_.empty()) return;
   this->SampleAll();
-  const SampleNeighbours neighbours(samples_, 0);
+  const SampleNeighbours neighbours(samples_, 0, &gather_.Rays(), rays);
   std::vector<int> more(records_.size(), 0);
   ParallelForEach(int64_t(more.size()), 256, [&](int64_t i) {
     const Record& record = records_[size_t(i)];

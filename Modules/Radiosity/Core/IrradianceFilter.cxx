@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "Common/Core/Parallel.h"
 #include "Radiosity/Core/NearestPoints.h"
@@ -14,6 +15,9 @@ namespace {
 
 /// Normals whose cosine is larger look the same way; a neighbour lies as flat as this sine says.
 constexpr float kAlike = 0.9f, kFlat = 0.25f;
+/// A sheet may lie between places that are higher than each other by so many times the length that
+/// rays skip; it is looked for so many times that length above them.
+constexpr float kStep = 1, kAbove = 2;
 /// What is thought of the scatter before it is known: that of so many rays, each as far off as the
 /// mean or the usual light is large.
 constexpr float kPriorRays = 2;
@@ -24,13 +28,26 @@ constexpr float kExtent = 1.1f;
 
 }  // namespace
 
-SampleNeighbours::SampleNeighbours(const std::vector<IrradianceSample>& samples, int32_t first)
+/// Whether one of two places has the other above it, and the other has not: on a surface that bends
+/// each is as high above the other, in a plane neither is.
+static bool IsStep(const IrradianceSample& a, const IrradianceSample& b, float least) {
+  return std::abs(Dot(b.position - a.position, a.normal + b.normal)) > 2 * least;
+}
+
+SampleNeighbours::SampleNeighbours(const std::vector<IrradianceSample>& samples, int32_t first,
+                                   const RayScene* scene, int64_t* rays)
     : first_(first),
       lists_(new int32_t[(samples.size() - size_t(first)) * kMost]),
       counts_(samples.size() - size_t(first), 0) {
   std::vector<Vec3f> positions(samples.size());
   for (size_t i = 0; i < samples.size(); ++i) positions[i] = samples[i].position;
   const NearestPoints nearest(positions);
+  const float epsilon = scene ? scene->Epsilon() : 0;
+  const auto isHidden = [&](const IrradianceSample& a, const IrradianceSample& b) {
+    return scene->Occluded(a.position + a.normal * (kAbove * epsilon),
+                           b.position + b.normal * (kAbove * epsilon));
+  };
+  std::vector<uint8_t> cast(samples.size() - size_t(first), 0);
   ParallelForEach(int64_t(samples.size()), 64, [&](int64_t place) {
     const int32_t sample = nearest.InOrder()[size_t(place)];
     if (sample < first) return;
@@ -45,9 +62,14 @@ SampleNeighbours::SampleNeighbours(const std::vector<IrradianceSample>& samples,
       if (found[k] == sample || Dot(own.normal, other.normal) < kAlike) continue;
       const float height = Dot(other.position - own.position, own.normal);
       if (height * height > kFlat * kFlat * squares[k]) continue;
+      if (scene && IsStep(own, other, kStep * epsilon)) {
+        ++cast[size_t(sample - first)];
+        if (isHidden(own, other)) continue;
+      }
       list[count++] = found[k];
     }
   });
+  if (rays) *rays += std::accumulate(cast.begin(), cast.end(), int64_t(0));
 }
 
 namespace {

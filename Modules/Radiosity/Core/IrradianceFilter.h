@@ -8,6 +8,7 @@
 
 #include "Common/Core/Spectrum.h"
 #include "Common/Core/Vector.h"
+#include "Visibility/Core/RayScene.h"
 
 namespace lambert {
 
@@ -32,8 +33,10 @@ class SampleNeighbours {
  public:
   static constexpr int kMost = 32;
 
-  /// Of all samples from `first` on, among all.
-  SampleNeighbours(const std::vector<IrradianceSample>& samples, int32_t first);
+  /// Of all samples from `first` on, among all. None lies across a sheet of `scene`, where that is
+  /// given: rays between samples of different heights tell, which `rays` counts.
+  SampleNeighbours(const std::vector<IrradianceSample>& samples, int32_t first,
+                   const RayScene* scene = nullptr, int64_t* rays = nullptr);
 
   const int32_t* begin(int32_t sample) const { return &lists_[size_t(sample - first_) * kMost]; }
   const int32_t* end(int32_t sample) const {

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "Common/Core/Random.h"
+#include "Common/Testing/TestScenes.h"
 
 namespace lambert {
 namespace {
@@ -154,6 +156,39 @@ TEST(IrradianceFilter, FewRaysThatFindNothingAreNotSureOfIt) {
   const FilteredIrradiance light = FilterIrradiance(samples, SampleNeighbours(samples, 0), 0, 3);
   EXPECT_EQ(light.irradiance, Spectrum());
   EXPECT_NEAR(light.variance, 2 * 9 / 10.0 / 8, 1e-5);
+}
+
+TEST(IrradianceFilter, HearsNobodyAcrossASheet) {
+  // Places on a floor, on a sheet a centimetre above its half x > 0, below that sheet, and one that
+  // is as high where there is none.
+  Scene scene;
+  testing::AddQuad(&scene.mesh, {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, Spectrum(0.5f));
+  testing::AddQuad(&scene.mesh, {0, -1, 0.01f}, {1, 0, 0}, {0, 2, 0}, Spectrum(0.5f));
+  testing::CompleteTables(&scene);
+  scene.mesh.Complete();
+  const RayScene rayScene(scene.mesh);
+  enum { Floor, Above, Below, High, Kinds };
+  const Vec3f places[Kinds] = {{-0.05f, 0, 0}, {0.05f, 0, 0.01f}, {0.05f, 0, 0}, {-0.1f, 0, 0.01f}};
+  std::vector<IrradianceSample> samples;
+  for (int i = 0; i < 4; ++i) {
+    for (const Vec3f& place : places) {
+      samples.push_back({place + Vec3f(0, 0.05f * float(i), 0), {0, 0, 1}, Spectrum(1.f), 0, 4, 1});
+    }
+  }
+  int64_t rays = 0;
+  const SampleNeighbours all(samples, 0), seen(samples, 0, &rayScene, &rays);
+  EXPECT_GT(rays, 0);
+  const auto hears = [&](const SampleNeighbours& neighbours, int32_t own, int kind) {
+    return std::any_of(neighbours.begin(own), neighbours.end(own),
+                       [&](int32_t other) { return other % Kinds == kind; });
+  };
+  for (int32_t i = 0; i < int32_t(samples.size()); i += Kinds) {
+    EXPECT_TRUE(hears(all, i + Below, Above));
+    EXPECT_FALSE(hears(seen, i + Below, Above));
+    EXPECT_FALSE(hears(seen, i + Above, Below));
+    EXPECT_TRUE(hears(seen, i + Floor, Below));
+    EXPECT_TRUE(hears(seen, i + Floor, High));
+  }
 }
 
 }  // namespace
