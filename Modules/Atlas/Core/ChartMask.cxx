@@ -63,6 +63,22 @@ void ChartMask::Take(const ChartMask& other, int x, int y) {
   }
 }
 
+bool ChartMask::Meets(const ChartMask& other, int x, int y) const {
+  const int shift = y % 64;
+  for (int i = 0; i < other.width_; ++i) {
+    const uint64_t* here = bits_.data() + this->Word(x + i, y);
+    const uint64_t* there = other.Column(i);
+    uint64_t common = 0;
+    for (int w = 0; w < other.words_; ++w) {
+      common |= here[w] & there[w] << shift;
+      const uint64_t above = shift == 0 ? 0 : there[w] >> (64 - shift);
+      if (above != 0) common |= here[w + 1] & above;
+    }
+    if (common != 0) return true;
+  }
+  return false;
+}
+
 ChartMask ChartMask::Turned() const {
   // What was row y is column y from the right.
   ChartMask turned(height_, width_);

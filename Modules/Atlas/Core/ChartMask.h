@@ -26,6 +26,9 @@ class ChartMask {
   void FillBetweenCrossings();
   /// What another mask takes with its lower left corner at (x, y), all within this one.
   void Take(const ChartMask& other, int x, int y);
+  /// Whether another mask with its lower left corner at (x, y), all within this one, takes what is
+  /// taken.
+  bool Meets(const ChartMask& other, int x, int y) const;
   /// Turned left by a quarter.
   ChartMask Turned() const;
 

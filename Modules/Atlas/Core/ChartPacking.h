@@ -15,8 +15,9 @@ struct ChartShape {
   ChartMask mask;
   /// By column: the texels [low, high) that its outline spans; pages are short enough for 16 bits.
   std::vector<int16_t> low, high;
-  int mostLow = 0;               ///< of `low`
-  int64_t lowSum = 0, area = 0;  ///< of `low`; texels taken
+  std::array<int16_t, 8> feet{};  ///< the lowest column of each eighth
+  int mostLow = 0;                ///< of `low`
+  int64_t lowSum = 0, area = 0;   ///< of `low`; texels taken
 
   ChartShape() = default;
   explicit ChartShape(ChartMask mask);
@@ -42,13 +43,19 @@ struct Packing {
 
 /// Which charts come first.
 enum class PackingOrder : uint8_t { Longest, Widest, LargestPerimeter, LargestArea };
-constexpr PackingOrder kPackingOrders[] = {PackingOrder::Longest, PackingOrder::Widest,
-                                           PackingOrder::LargestPerimeter,
-                                           PackingOrder::LargestArea};
+/// How charts are packed.
+struct PackingWay {
+  PackingOrder order = PackingOrder::Longest;
+  /// Of so many that come next, [1, inf), the one is put first that lies cheapest; large ones may
+  /// lie a little dearer.
+  int window = 1;
+  /// Texels that a chart leaves empty below it count this much beside those that its top rises.
+  double waste = 0.5;
+};
 
 /// Charts on pages of `pageSize` x `pageSize` texels; as many pages as it takes.
 /// Throws Error for a chart that is larger than a page.
 Packing PackCharts(const std::vector<TurnedChart>& charts, int pageSize,
-                   PackingOrder order = PackingOrder::Longest);
+                   const PackingWay& way = {});
 
 }  // namespace lambert

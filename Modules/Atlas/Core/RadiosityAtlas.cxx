@@ -21,13 +21,17 @@ namespace {
 constexpr double kFirstFill = 0.7;
 /// A chart may leave so much empty of its rectangle, of the area of all.
 constexpr double kMostEmpty = 0.01;
-/// Attempts at the size of the texels that fills the pages, for every order of the charts.
+/// Attempts at the size of the texels that fills the pages.
 constexpr int kAttempts = 10;
+/// Charts among which the next one is chosen at most, and about how often any is looked at in all.
+constexpr size_t kMostWindow = 128, kLooks = 130000;
+/// A way of packing that fills so much more than the best is not tried again.
+constexpr double kBehind = 1.05;
 /// The part of the pages that the next attempt aims at.
 constexpr double kSafety = 0.99;
 /// Texels a metre of the next attempt where all seems full, by those of the best: at least, at
 /// most. It is good enough where it has this part of those that were too many.
-constexpr double kStep = 1.0025, kStride = 1.01, kLeastFill = 0.995;
+constexpr double kStep = 1.0025, kStride = 1.01, kLeastFill = 0.9975;
 /// Pages that an atlas may have where its texels' size is given.
 constexpr int kMostPages = 256;
 /// Texels around a chart that are its own, whatever the padding; and those by which it may be off,
@@ -131,6 +135,7 @@ class Layout {
   /// Texels a metre at which the longest chart still fits on a page.
   double MostDensity() const { return longest_ > 0 ? LongestChart(options_) / longest_ : 1; }
   double Area() const { return area_; }
+  size_t ChartCount() const { return set_.charts.size(); }
 
   /// Throws Error where a chart is longer than a page, or all take too many pages.
   void RequireRoom(double density) const {
@@ -146,12 +151,20 @@ class Layout {
     }
   }
 
-  Packing Pack(double density, PackingOrder order) const {
-    std::vector<TurnedChart> charts(set_.charts.size());
-    ParallelForEach(int64_t(charts.size()), 16, [&](int64_t i) {
-      charts[size_t(i)] = TurnFourWays(this->Mask(size_t(i), density));
+  Packing Pack(double density, const PackingWay& way) const {
+    return PackCharts(this->Charts(density), options_.pageSize, way);
+  }
+  std::vector<Packing> Pack(double density, const std::vector<PackingWay>& ways) const {
+    const std::vector<TurnedChart> charts = this->Charts(density);
+    std::vector<Packing> packed(ways.size());
+    ParallelForEach(int64_t(ways.size()), 1, [&](int64_t i) {
+      packed[size_t(i)] = PackCharts(charts, options_.pageSize, ways[size_t(i)]);
     });
-    return PackCharts(charts, options_.pageSize, order);
+    return packed;
+  }
+  /// Pages and parts of one that are full.
+  double Fill(const Packing& packing) const {
+    return packing.pages - 1 + double(packing.lastHeight) / double(options_.pageSize);
   }
 
   /// By how much `density` may grow so that charts take `factor` times as many texels as they do in
@@ -175,6 +188,14 @@ class Layout {
   }
 
  private:
+  std::vector<TurnedChart> Charts(double density) const {
+    std::vector<TurnedChart> charts(set_.charts.size());
+    ParallelForEach(int64_t(charts.size()), 16, [&](int64_t i) {
+      charts[size_t(i)] = TurnFourWays(this->Mask(size_t(i), density));
+    });
+    return charts;
+  }
+
   /// Of its rectangle amid the texels that it takes.
   Vec2d Corner(size_t chart, double density) const {
     const Rectangle& r = rectangles_[chart];
@@ -229,38 +250,66 @@ void RequireAtlasOptions(const AtlasOptions& options) {
   }
 }
 
+/// Charts among which the next one is chosen, where there are so many.
+int WindowFor(size_t charts) {
+  return int(std::min(kMostWindow, std::max<size_t>(1, kLooks / std::max<size_t>(1, charts))));
+}
+
+/// One chart after the other.
+std::vector<PackingWay> SimpleWays() {
+  return {{PackingOrder::Widest, 1},
+          {PackingOrder::LargestArea, 1},
+          {PackingOrder::LargestPerimeter, 1},
+          {PackingOrder::Longest, 1}};
+}
+/// And with a choice of the next one, which takes longest.
+std::vector<PackingWay> AllWays(size_t charts) {
+  const std::vector<PackingWay> simple = SimpleWays();
+  std::vector<PackingWay> ways = {{PackingOrder::Widest, WindowFor(charts), 1},
+                                  {PackingOrder::LargestArea, WindowFor(charts), 1}};
+  ways.insert(ways.end(), simple.begin(), simple.end());
+  return ways;
+}
+
+/// Those that fill no more.
+void KeepWaysUpTo(double most, const std::vector<double>& fills, std::vector<PackingWay>* ways) {
+  std::vector<PackingWay> kept;
+  for (size_t i = 0; i < ways->size(); ++i) {
+    if (fills[i] <= most) kept.push_back((*ways)[i]);
+  }
+  *ways = std::move(kept);
+}
+
 /// The smallest texels whose charts do not need more pages than there may be.
 double FillPages(const Layout& layout, const AtlasOptions& options, Packing* packing,
                  const ProgressCallback& progress) {
   double density = std::min(layout.MostDensity(), FirstDensity(options, layout.Area())), best = 0;
-  double fraction = 0.6;
-  for (const PackingOrder order : kPackingOrders) {
-    double tooDense = std::numeric_limits<double>::max();
-    for (int attempt = 0; attempt < kAttempts && best < layout.MostDensity(); ++attempt) {
-      if (!Report(progress, fraction, "packing charts")) throw Cancelled();
-      const bool isWorse = best > 0 && attempt == 0;
-      const Packing packed = layout.Pack(density, order);
-      const double fill = packed.pages - 1 + double(packed.lastHeight) / double(options.pageSize);
-      if (packed.pages <= options.pages) {
-        best = density;
-        *packing = packed;
-      } else if (isWorse) {
-        break;
-      } else {
-        tooDense = density;
-      }
-      if (best > kLeastFill * tooDense) break;
-      // As this attempt was full, or else between what fitted and what did not.
-      const double next = density * layout.Growth(density, packed, kSafety * options.pages / fill);
-      const bool isBetween = next > kStep * best && next < tooDense;
-      const double middle = 0.5 * (best + tooDense);
-      density = isBetween ? next : best > 0 ? std::min(middle, kStride * best) : middle;
-      density = std::min(layout.MostDensity(), density);
+  double tooDense = std::numeric_limits<double>::max();
+  std::vector<PackingWay> ways = AllWays(layout.ChartCount());
+  for (int attempt = 0; attempt < kAttempts && best < layout.MostDensity(); ++attempt) {
+    const double fraction = 0.6 + 0.4 * double(attempt) / kAttempts;
+    if (!Report(progress, fraction, "packing charts")) throw Cancelled();
+    // At first only what is quick, to tell about how much fits; then what does not fall behind.
+    std::vector<Packing> all = layout.Pack(density, attempt == 0 ? SimpleWays() : ways);
+    std::vector<double> fills;
+    for (const Packing& each : all) fills.push_back(layout.Fill(each));
+    const size_t lowest = size_t(std::min_element(fills.begin(), fills.end()) - fills.begin());
+    const double fill = fills[lowest];
+    Packing packed = std::move(all[lowest]);
+    if (attempt > 0) KeepWaysUpTo(kBehind * fill, fills, &ways);
+    const double next = density * layout.Growth(density, packed, kSafety * options.pages / fill);
+    if (packed.pages <= options.pages) {
+      best = density;
+      *packing = std::move(packed);
+    } else if (attempt > 0) {
+      tooDense = density;
     }
-    if (!(best > 0)) break;
-    // Another order has to do better.
-    density = std::min(layout.MostDensity(), kStep * best);
-    fraction += 0.1;
+    if (best > kLeastFill * tooDense) break;
+    // As this attempt was full, or else between what fitted and what did not.
+    const bool isBetween = next > kStep * best && next < tooDense;
+    const double middle = 0.5 * (best + tooDense);
+    density = isBetween ? next : best > 0 ? std::min(middle, kStride * best) : middle;
+    density = std::min(layout.MostDensity(), density);
   }
   return best;
 }
@@ -323,7 +372,7 @@ RadiosityAtlas PackAtlas(ChartSet set, const AtlasOptions& options,
   if (options.texelSize > 0) {
     density = 1 / options.texelSize;
     layout.RequireRoom(density);
-    packing = layout.Pack(density, PackingOrder::Longest);
+    packing = layout.Pack(density, {PackingOrder::Widest, WindowFor(layout.ChartCount()), 1});
   } else if (!atlas.set.charts.empty()) {
     density = FillPages(layout, options, &packing, progress);
     if (!(density > 0)) {

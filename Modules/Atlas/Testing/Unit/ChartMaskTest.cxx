@@ -34,6 +34,19 @@ TEST(ChartMask, TakesAnotherAtItsPlace) {
   }
 }
 
+TEST(ChartMask, MeetsWhatIsTakenThere) {
+  ChartMask bar(2, 100);
+  bar.Take(1, 90, 100);
+  ChartMask page(8, 256);
+  page.Take(5, 150, 151);
+  // Its only stretch has to cover that texel.
+  for (int x = 0; x < 7; ++x) {
+    for (int y = 0; y < 157; ++y) {
+      EXPECT_EQ(page.Meets(bar, x, y), x == 4 && y > 50 && y <= 60) << x << ", " << y;
+    }
+  }
+}
+
 TEST(ChartMask, EveryOtherStretchBetweenCrossingsIsFilled) {
   ChartMask mask(2, 200);
   for (const int y : {3, 70, 100, 180}) mask.Cross(1, y);

@@ -24,11 +24,10 @@ ChartMask Frame(int width, int height, int border) {
   return mask;
 }
 
-Packing Pack(const std::vector<ChartMask>& masks, int pageSize,
-             PackingOrder order = PackingOrder::Longest) {
+Packing Pack(const std::vector<ChartMask>& masks, int pageSize, const PackingWay& way = {}) {
   std::vector<TurnedChart> charts;
   for (const ChartMask& mask : masks) charts.push_back(TurnFourWays(mask));
-  return PackCharts(charts, pageSize, order);
+  return PackCharts(charts, pageSize, way);
 }
 
 /// Texels that are taken, none of them twice, all on their page.
@@ -71,27 +70,41 @@ TEST(ChartPacking, NoTexelIsTakenTwice) {
     }
     charts.push_back(mask);
   }
-  const Packing packing = Pack(charts, 256);
-  EXPECT_EQ(Taken(charts, packing, 256), area);
-  EXPECT_LE(packing.lastHeight, 256);
+  for (const int window : {1, 7, 1000}) {
+    const Packing packing = Pack(charts, 256, {PackingOrder::Longest, window});
+    EXPECT_EQ(Taken(charts, packing, 256), area);
+    EXPECT_LE(packing.lastHeight, 256);
+  }
 }
 
 // Whichever come first, nothing lies on anything else; each order has charts that it suits.
 TEST(ChartPacking, OrdersDiffer) {
   const std::vector<ChartMask> charts = {Filled(60, 4), Filled(31, 31), Filled(26, 38),
                                          Filled(22, 42)};
-  for (const PackingOrder order : kPackingOrders) {
-    const Packing packing = Pack(charts, 64, order);
+  for (const PackingOrder order : {PackingOrder::Longest, PackingOrder::Widest,
+                                   PackingOrder::LargestPerimeter, PackingOrder::LargestArea}) {
+    const Packing packing = Pack(charts, 64, {order, 1});
     EXPECT_EQ(Taken(charts, packing, 64), packing.takenTexels);
   }
   // The first of each lies in the corner.
   const PackingOrder orders[] = {PackingOrder::Longest, PackingOrder::Widest,
                                  PackingOrder::LargestArea};
   for (size_t first = 0; first < 3; ++first) {
-    const ChartPlace place = Pack(charts, 64, orders[first]).places[first];
+    const ChartPlace place = Pack(charts, 64, {orders[first], 1}).places[first];
     EXPECT_EQ(place.x, 0);
     EXPECT_EQ(place.y, 0);
   }
+}
+
+// One after the other, the third lies on the second; chosen, beside it.
+TEST(ChartPacking, TheChartThatLiesCheapestComesNext) {
+  const std::vector<ChartMask> charts = {Filled(48, 48), Filled(32, 32), Filled(16, 30),
+                                         Filled(32, 16)};
+  const Packing inOrder = Pack(charts, 64), chosen = Pack(charts, 64, {PackingOrder::Longest, 4});
+  EXPECT_LE(chosen.pages, inOrder.pages);
+  EXPECT_EQ(Taken(charts, chosen, 64), chosen.takenTexels);
+  EXPECT_EQ(chosen.places[2].page, 0);
+  EXPECT_EQ(chosen.places[2].x, 48);
 }
 
 TEST(ChartPacking, EqualSquaresFillAPage) {
