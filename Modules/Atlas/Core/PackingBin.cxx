@@ -29,7 +29,7 @@ class Search {
     if (highest_ < 0 || least - chart_.mostLow > highest_) return;
     int known = from;  // Columns up to this one let it lie low enough.
     for (int x = from; x < std::min(to, int(top_.size()) - width_ + 1); ++x) {
-      if (topSum_[size_t(x + width_)] - topSum_[size_t(x)] >= mostSum_) continue;
+      if (topSum_[size_t(x) + size_t(width_)] - topSum_[size_t(x)] >= mostSum_) continue;
       // Past the last column that holds it too high wherever it crosses it.
       int last = -1;
       for (known = std::max(x, known); known < x + width_; ++known) {
@@ -57,7 +57,7 @@ class Search {
   /// As low as it falls from a column on; nowhere, where that is beyond the limits.
   PackingSpot Fall(int x) const {
     const int16_t *top = top_.data() + x, *low = chart_.low.data();
-    const int32_t sum = topSum_[size_t(x + width_)] - topSum_[size_t(x)];
+    const int32_t sum = topSum_[size_t(x) + size_t(width_)] - topSum_[size_t(x)];
     const double gaps = double(chart_.lowSum - sum) * perColumn_;
     const auto costAt = [&](int y) { return y + chart_.Height() + waste_ * (y + gaps); };
     // Onto its feet first.
@@ -104,7 +104,7 @@ PackingSpot PackingBin::Find(const TurnedChart& chart, double cost, int from, in
 int64_t PackingBin::Put(const ChartShape& chart, const PackingSpot& spot) {
   int64_t empty = -chart.area;
   for (int i = 0; i < chart.Width(); ++i) {
-    int16_t& top = top_[size_t(spot.x + i)];
+    int16_t& top = top_[size_t(spot.x) + size_t(i)];
     const int high = spot.y + chart.high[size_t(i)];
     if (high <= top) continue;
     empty += high - top;

@@ -292,6 +292,7 @@ double FillPages(const Layout& layout, const AtlasOptions& options, Packing* pac
     // At first only what is quick, to tell about how much fits; then what does not fall behind.
     std::vector<Packing> all = layout.Pack(density, attempt == 0 ? SimpleWays() : ways);
     std::vector<double> fills;
+    fills.reserve(all.size());
     for (const Packing& each : all) fills.push_back(layout.Fill(each));
     const size_t lowest = size_t(std::min_element(fills.begin(), fills.end()) - fills.begin());
     const double fill = fills[lowest];
