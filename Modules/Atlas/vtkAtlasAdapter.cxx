@@ -17,7 +17,6 @@
 #include "vtkValueArrays.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <unordered_map>
 
@@ -90,31 +89,12 @@ void ReadCharts(vtkCellData* cells, size_t faces, RadiosityAtlas* atlas) {
   }
 }
 
-/// By face: its points, numbered within their chart.
-void NumberCorners(const TriangleMesh& mesh, ChartSet* set) {
-  set->corners.resize(mesh.triangles.size());
-  std::unordered_map<int32_t, int32_t> numbers;
-  for (Chart& chart : set->charts) {
-    numbers.clear();
-    for (const int32_t face : set->FacesOf(chart)) {
-      const size_t f = static_cast<size_t>(face);
-      for (size_t c = 0; c < 3; ++c) {
-        set->corners[f][c] =
-            numbers.try_emplace(mesh.triangles[f][c], static_cast<int32_t>(numbers.size()))
-                .first->second;
-      }
-    }
-    chart.cornerCount = static_cast<int32_t>(numbers.size());
-  }
-}
-
-/// Where the corners of the faces lie on their pages, and what of these they cover.
+/// Where the corners of the faces lie on their pages.
 void ReadPlaces(vtkPointData* points, const TriangleMesh& mesh, RadiosityAtlas* atlas) {
   const std::vector<Vec2f> coords = TuplesFromArray<Vec2f>(
       RequireArray(points, Names::LightMapTCoords(), 2, mesh.positions.size()),
       Names::LightMapTCoords());
   const auto isOnPage = [](const Vec2f& p) { return p.x >= 0 && p.x <= 1 && p.y >= 0 && p.y <= 1; };
-  double area = 0;
   for (const std::array<int32_t, 3>& triangle : mesh.triangles) {
     std::array<Vec2f, 3> places;
     for (size_t c = 0; c < 3; ++c) {
@@ -124,12 +104,7 @@ void ReadPlaces(vtkPointData* points, const TriangleMesh& mesh, RadiosityAtlas* 
                     " of the mesh lies on no page; it takes " + kSource + " as it is.");
       }
     }
-    const Vec2d u(places[1] - places[0]), v(places[2] - places[0]);
-    area += 0.5 * std::abs(u.x * v.y - u.y * v.x);
     atlas->textureCoords.push_back(places);
-  }
-  if (atlas->pages > 0) {
-    atlas->utilisation = area / atlas->pages;
   }
 }
 
@@ -165,7 +140,6 @@ RadiosityAtlas ReadAtlas(vtkPolyData* input, TriangleMesh* mesh) {
                                   static_cast<double>(std::numeric_limits<float>::max()));
   ReadCharts(input->GetCellData(), mesh->triangles.size(), &atlas);
   atlas.set.places.resize(mesh->triangles.size());
-  NumberCorners(*mesh, &atlas.set);
   ReadPlaces(input->GetPointData(), *mesh, &atlas);
   return atlas;
 }
@@ -211,6 +185,7 @@ StoredAtlas StoredAtlasFromPolyData(vtkPolyData* input) {
   StoredAtlas stored;
   TriangleMesh mesh;
   stored.atlas = ReadAtlas(input, &mesh);
+  CompleteAtlas(mesh, &stored.atlas);
   for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
     stored.corners.push_back({mesh.Corner(face, 0), mesh.Corner(face, 1), mesh.Corner(face, 2)});
   }

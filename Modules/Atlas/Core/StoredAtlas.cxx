@@ -1,5 +1,7 @@
 #include "Atlas/Core/StoredAtlas.h"
 
+#include <cmath>
+#include <unordered_map>
 #include <utility>
 
 namespace lambert {
@@ -31,7 +33,35 @@ bool AreCornersOf(const TriangleMesh& mesh, const std::vector<std::array<Vec3f, 
   return true;
 }
 
+/// Of all triangles, pages^2.
+double AreaOnPages(const RadiosityAtlas& atlas) {
+  double area = 0;
+  for (const std::array<Vec2f, 3>& places : atlas.textureCoords) {
+    const Vec2d u(places[1] - places[0]), v(places[2] - places[0]);
+    area += 0.5 * std::abs(u.x * v.y - u.y * v.x);
+  }
+  return area;
+}
+
 }  // namespace
+
+void CompleteAtlas(const TriangleMesh& mesh, RadiosityAtlas* atlas) {
+  ChartSet& set = atlas->set;
+  set.corners.resize(mesh.triangles.size());
+  std::unordered_map<int32_t, int32_t> numbers;
+  for (Chart& chart : set.charts) {
+    numbers.clear();
+    for (const int32_t face : set.FacesOf(chart)) {
+      for (size_t c = 0; c < 3; ++c) {
+        const int32_t point = mesh.triangles[size_t(face)][c];
+        set.corners[size_t(face)][c] =
+            numbers.try_emplace(point, int32_t(numbers.size())).first->second;
+      }
+    }
+    chart.cornerCount = int32_t(numbers.size());
+  }
+  if (atlas->pages > 0) atlas->utilisation = AreaOnPages(*atlas) / atlas->pages;
+}
 
 bool IsAtlasOf(const StoredAtlas& stored, const TriangleMesh& mesh, const ClusterTree& tree) {
   if (stored.side.empty()) return AreCornersOf(mesh, stored.corners);

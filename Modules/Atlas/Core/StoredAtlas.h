@@ -20,6 +20,10 @@ struct StoredAtlas {
   std::vector<uint8_t> side;
 };
 
+/// What a mesh with texture coordinates does not say itself: points by their numbers within their
+/// charts, and the utilisation. Corners of `mesh` that are one place of a chart are one point.
+void CompleteAtlas(const TriangleMesh& mesh, RadiosityAtlas* atlas);
+
 /// Whether its faces are those of `mesh`, which is in the order of `tree` and has surfaces.
 bool IsAtlasOf(const StoredAtlas& stored, const TriangleMesh& mesh, const ClusterTree& tree);
 

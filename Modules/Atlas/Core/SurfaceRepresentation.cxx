@@ -45,39 +45,6 @@ size_t SurfaceOf(const TriangleMesh& mesh, const RadiositySolution& solution, si
   return size_t(mesh.surfaceId[size_t(solution.inputFaceId[triangle])]);
 }
 
-/// Triangles, area and the error of the input's points, by surface, of the brighter sides.
-std::vector<SurfaceCost> MeasureSurfaces(const TriangleMesh& mesh,
-                                         const RadiositySolution& solution) {
-  const int32_t count = 1 + *std::max_element(mesh.surfaceId.begin(), mesh.surfaceId.end());
-  std::vector<SurfaceCost> costs(static_cast<size_t>(count));
-  std::vector<ErrorSum> errors(costs.size());
-  for (size_t face = 0; face < mesh.triangles.size(); ++face) {
-    SurfaceCost& cost = costs[size_t(mesh.surfaceId[face])];
-    ++cost.inputTriangles;
-    cost.area += mesh.Area(int64_t(face));
-  }
-  const std::vector<uint8_t> sides = BrighterSidesOfSurfaces(mesh, solution);
-  for (size_t t = 0; t < solution.inputFaceId.size(); ++t) {
-    const size_t surface = SurfaceOf(mesh, solution, t);
-    if (solution.side[t] != sides[surface]) continue;
-    ++costs[surface].refinedTriangles;
-    if (solution.inputIrradiance.empty()) continue;
-    const int64_t face = solution.inputFaceId[t];
-    const auto w = WeightsInFace(mesh, face, Middle(solution.mesh, int64_t(t)));
-    Spectrum atPoints;
-    for (size_t c = 0; c < 3; ++c) {
-      atPoints += solution.inputIrradiance[size_t(mesh.triangles[size_t(face)][c])] * w[c];
-    }
-    errors[surface].Add(atPoints, MeanOverCorners(solution.irradiance, solution.mesh, t),
-                        solution.mesh.Area(int64_t(t)));
-  }
-  for (size_t s = 0; s < costs.size(); ++s) {
-    costs[s].side = sides[s];
-    costs[s].inputPointError = errors[s].Rms();
-  }
-  return costs;
-}
-
 /// What the lookups of the surfaces in the light map are off by.
 std::vector<double> MapErrors(const RepresentedScene& scene) {
   const TriangleMesh& mesh = scene.mapped.mesh;
@@ -183,8 +150,60 @@ Representation WantedOf(const RepresentationOptions& options, size_t surface) {
   return options.wanted.empty() ? Representation::Automatic : options.wanted[surface];
 }
 
-/// Takes surfaces into the light map, the most refined first.
-void Choose(const RepresentationOptions& options, std::vector<SurfaceCost>* surfaces) {
+/// What the surfaces take of the light map, and are off by in it.
+void AddCostsOfMap(const RepresentedScene& scene, std::vector<SurfaceCost>* surfaces) {
+  const std::vector<double> errors = MapErrors(scene), texels = TexelsOfSurfaces(scene);
+  size_t next = 0;
+  for (SurfaceCost& cost : *surfaces) {
+    if (cost.chosen != Representation::LightMap) {
+      const double size = scene.atlas.texelSize;
+      if (size > 0) cost.texels = std::llround(std::ceil(cost.area / (size * size)));
+      continue;
+    }
+    cost.texels = std::llround(std::ceil(texels[next]));
+    cost.mapError = errors[next++];
+  }
+}
+
+}  // namespace
+
+std::vector<SurfaceCost> MeasureSurfaces(const TriangleMesh& mesh,
+                                         const RadiositySolution& solution) {
+  if (mesh.surfaceId.empty()) throw Error("The mesh has no surfaces; cluster its faces first.");
+  const int32_t count = 1 + *std::max_element(mesh.surfaceId.begin(), mesh.surfaceId.end());
+  std::vector<SurfaceCost> costs(static_cast<size_t>(count));
+  std::vector<ErrorSum> errors(costs.size());
+  for (size_t face = 0; face < mesh.triangles.size(); ++face) {
+    SurfaceCost& cost = costs[size_t(mesh.surfaceId[face])];
+    ++cost.inputTriangles;
+    cost.area += mesh.Area(int64_t(face));
+  }
+  const std::vector<uint8_t> sides = BrighterSidesOfSurfaces(mesh, solution);
+  for (size_t t = 0; t < solution.inputFaceId.size(); ++t) {
+    const size_t surface = SurfaceOf(mesh, solution, t);
+    if (solution.side[t] != sides[surface]) continue;
+    ++costs[surface].refinedTriangles;
+    if (solution.inputIrradiance.empty()) continue;
+    const int64_t face = solution.inputFaceId[t];
+    const auto w = WeightsInFace(mesh, face, Middle(solution.mesh, int64_t(t)));
+    Spectrum atPoints;
+    for (size_t c = 0; c < 3; ++c) {
+      atPoints += solution.inputIrradiance[size_t(mesh.triangles[size_t(face)][c])] * w[c];
+    }
+    errors[surface].Add(atPoints, MeanOverCorners(solution.irradiance, solution.mesh, t),
+                        solution.mesh.Area(int64_t(t)));
+  }
+  for (size_t s = 0; s < costs.size(); ++s) {
+    costs[s].side = sides[s];
+    costs[s].inputPointError = errors[s].Rms();
+  }
+  return costs;
+}
+
+void ChooseRepresentations(const RepresentationOptions& options,
+                           std::vector<SurfaceCost>* surfaces) {
+  RequireFitting(options, surfaces->size());
+
   // What is wanted stands.
   std::vector<SurfaceCost>& costs = *surfaces;
   int64_t introduced = 0;
@@ -205,34 +224,6 @@ void Choose(const RepresentationOptions& options, std::vector<SurfaceCost>* surf
     costs[s].chosen = Representation::LightMap;
     introduced -= costs[s].Introduced();
   }
-}
-
-/// What the surfaces take of the light map, and are off by in it.
-void AddCostsOfMap(const RepresentedScene& scene, std::vector<SurfaceCost>* surfaces) {
-  const std::vector<double> errors = MapErrors(scene), texels = TexelsOfSurfaces(scene);
-  size_t next = 0;
-  for (SurfaceCost& cost : *surfaces) {
-    if (cost.chosen != Representation::LightMap) {
-      const double size = scene.atlas.texelSize;
-      if (size > 0) cost.texels = std::llround(std::ceil(cost.area / (size * size)));
-      continue;
-    }
-    cost.texels = std::llround(std::ceil(texels[next]));
-    cost.mapError = errors[next++];
-  }
-}
-
-}  // namespace
-
-std::vector<SurfaceCost> ChooseRepresentations(const TriangleMesh& mesh,
-                                               const RadiositySolution& solution,
-                                               const RepresentationOptions& options) {
-  if (mesh.surfaceId.empty()) throw Error("The mesh has no surfaces; cluster its faces first.");
-  std::vector<SurfaceCost> costs = MeasureSurfaces(mesh, solution);
-  RequireFitting(options, costs.size());
-
-  Choose(options, &costs);
-  return costs;
 }
 
 RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& tree,
@@ -284,7 +275,7 @@ void KeptRepresentation::Represent(const RepresentationOptions& options,
     wanted = ofParts;
   }
   std::vector<SurfaceCost> surfaces = candidates_.costs;
-  Choose(wanted, &surfaces);
+  ChooseRepresentations(wanted, &surfaces);
   this->Take(surfaces);
 
   // Its light, and what it costs.

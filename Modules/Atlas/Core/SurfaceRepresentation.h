@@ -44,12 +44,16 @@ struct SurfaceCost {
   }
 };
 
+/// Triangles, area and the error of the input's points, by surface, of the brighter sides. `mesh`
+/// is the solved mesh. Throws Error where it has no surfaces.
+std::vector<SurfaceCost> MeasureSurfaces(const TriangleMesh& mesh,
+                                         const RadiositySolution& solution);
+
 /// Takes the surfaces by the triangles that refinement introduced, the most first, into the light
-/// map, until those of the others are within the options (thesis 5.3). `mesh` is the solved mesh,
-/// with surfaces. Throws Error where the options do not fit.
-std::vector<SurfaceCost> ChooseRepresentations(const TriangleMesh& mesh,
-                                               const RadiositySolution& solution,
-                                               const RepresentationOptions& options);
+/// map, until those of the others are within the options (thesis 5.3). Throws Error where the
+/// options do not fit.
+void ChooseRepresentations(const RepresentationOptions& options,
+                           std::vector<SurfaceCost>* surfaces);
 
 /// A solved scene, every surface in its representation.
 struct RepresentedScene {

@@ -8,6 +8,7 @@
 #include "Common/Core/Parallel.h"
 #include "Radiosity/Core/NearestPoints.h"
 #include "Radiosity/Core/PlaneFit.h"
+#include "Visibility/Core/RayScene.h"
 
 namespace lambert {
 

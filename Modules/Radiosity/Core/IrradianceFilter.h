@@ -8,9 +8,10 @@
 
 #include "Common/Core/Spectrum.h"
 #include "Common/Core/Vector.h"
-#include "Visibility/Core/RayScene.h"
 
 namespace lambert {
+
+class RayScene;
 
 /// A place where rays told the light that arrives.
 struct IrradianceSample {

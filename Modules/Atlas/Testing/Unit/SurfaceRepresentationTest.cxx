@@ -38,6 +38,14 @@ struct TwoPlanes {
   }
 };
 
+std::vector<SurfaceCost> ChooseRepresentations(const TriangleMesh& mesh,
+                                               const RadiositySolution& solution,
+                                               const RepresentationOptions& options) {
+  std::vector<SurfaceCost> costs = MeasureSurfaces(mesh, solution);
+  lambert::ChooseRepresentations(options, &costs);
+  return costs;
+}
+
 AtlasOptions Page() {
   AtlasOptions options;
   options.pageSize = 256;

@@ -8,6 +8,7 @@
 
 #include "Common/Core/Random.h"
 #include "Common/Testing/TestScenes.h"
+#include "Visibility/Core/RayScene.h"
 
 namespace lambert {
 namespace {
