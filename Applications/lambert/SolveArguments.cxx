@@ -250,12 +250,6 @@ void SolveArguments::RequireOptionsOfAtlas() const {
     throw CLI::ValidationError(option,
                                "is decided by the atlas of --atlas; leave out one of the two");
   }
-  for (const char* option : {"--introduced", "--represent"}) {
-    if (command_->count(option) == 0) continue;
-    throw CLI::ValidationError(option,
-                               "chooses surfaces, and the atlas of --atlas is of all of them; "
-                               "leave out one of the two");
-  }
 }
 
 int SolveArguments::MostPages() const {

@@ -44,18 +44,26 @@ Error OutOfOrder(size_t face) {
                "; it takes " + kSource + " as it is.");
 }
 
-/// Charts and their pages. Charts are numbered by their first faces.
-void ReadCharts(vtkCellData* cells, size_t faces, RadiosityAtlas* atlas) {
+/// Faces before the first one that its points light: they come last.
+size_t CountLaidFaces(vtkPolyData* input) {
+  const size_t faces = static_cast<size_t>(input->GetNumberOfCells());
   const std::vector<int32_t> charts =
-      NumbersFromArray<int32_t>(RequireArray(cells, Names::ChartId(), 1, faces));
+      NumbersFromArray<int32_t>(RequireArray(input->GetCellData(), Names::ChartId(), 1, faces));
+  return static_cast<size_t>(std::find(charts.begin(), charts.end(), -1) - charts.begin());
+}
+
+/// Charts of the first `faces` and their pages. Charts are numbered by their first faces.
+void ReadCharts(vtkPolyData* input, size_t faces, RadiosityAtlas* atlas) {
+  const size_t all = static_cast<size_t>(input->GetNumberOfCells());
+  const std::vector<int32_t> charts =
+      NumbersFromArray<int32_t>(RequireArray(input->GetCellData(), Names::ChartId(), 1, all));
   const std::vector<int32_t> pages =
-      NumbersFromArray<int32_t>(RequireArray(cells, Names::PageId(), 1, faces));
+      NumbersFromArray<int32_t>(RequireArray(input->GetCellData(), Names::PageId(), 1, all));
+  for (size_t face = faces; face < all; ++face) {
+    if (charts[face] != -1) throw OutOfOrder(face);
+  }
   for (size_t face = 0; face < faces; ++face) {
     const int32_t count = static_cast<int32_t>(atlas->set.charts.size());
-    if (charts[face] == -1) {
-      throw Error("Face " + std::to_string(face) +
-                  " of the mesh is lit at its points and has no chart; it takes " + kSource + ".");
-    }
     if (charts[face] < 0 || charts[face] > count || pages[face] < 0) {
       throw OutOfOrder(face);
     }
@@ -127,7 +135,7 @@ void JoinPoints(const std::vector<int64_t>& shared, TriangleMesh* mesh) {
   mesh->uvs.clear();
 }
 
-/// The atlas that a mesh carries, and the mesh as it lies in it.
+/// The atlas that a mesh carries, and its faces that have charts as they lie in it.
 RadiosityAtlas ReadAtlas(vtkPolyData* input, TriangleMesh* mesh) {
   constexpr double kLeastPage = 16, kMostPage = 16384, kMostPadding = 64;
   *mesh = TriangleMeshFromPolyData(input);
@@ -138,7 +146,8 @@ RadiosityAtlas ReadAtlas(vtkPolyData* input, TriangleMesh* mesh) {
   atlas.padding = static_cast<int>(RequireNumber(fields, Names::AtlasPadding(), 0, kMostPadding));
   atlas.texelSize = RequireNumber(fields, Names::AtlasTexelSize(), 0,
                                   static_cast<double>(std::numeric_limits<float>::max()));
-  ReadCharts(input->GetCellData(), mesh->triangles.size(), &atlas);
+  mesh->triangles.resize(CountLaidFaces(input));
+  ReadCharts(input, mesh->triangles.size(), &atlas);
   atlas.set.places.resize(mesh->triangles.size());
   ReadPlaces(input->GetPointData(), *mesh, &atlas);
   return atlas;
@@ -172,6 +181,10 @@ void AddAtlasFields(const RadiosityAtlas& atlas, vtkFieldData* fields) {
 RadiosityAtlas AtlasFromPolyData(vtkPolyData* input, TriangleMesh* mesh,
                                  RadiositySolution* solution) {
   RadiosityAtlas atlas = ReadAtlas(input, mesh);
+  if (mesh->FaceCount() < input->GetNumberOfCells()) {
+    throw Error("Face " + std::to_string(mesh->FaceCount()) +
+                " of the mesh is lit at its points and has no chart; it takes " + kSource + ".");
+  }
   JoinPoints(NumbersFromArray<int64_t>(RequireArray(input->GetPointData(), Names::SharedPointId(),
                                                     1, mesh->positions.size())),
              mesh);
@@ -189,9 +202,17 @@ StoredAtlas StoredAtlasFromPolyData(vtkPolyData* input) {
   for (int64_t face = 0; face < mesh.FaceCount(); ++face) {
     stored.corners.push_back({mesh.Corner(face, 0), mesh.Corner(face, 1), mesh.Corner(face, 2)});
   }
-  if (HasSides(input)) {
+
+  // What they are of.
+  const size_t faces = mesh.triangles.size();
+  stored.isOfChosen = faces < static_cast<size_t>(input->GetNumberOfCells());
+  if (stored.isOfChosen || HasSides(input)) {
     stored.inputFace = InputFaces(input);
+    stored.inputFace.resize(faces);
+  }
+  if (HasSides(input)) {
     stored.side = Sides(input);
+    stored.side.resize(faces);
   }
   return stored;
 }

@@ -13,20 +13,43 @@
 #include "vtkValueArrays.h"
 
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
 #include <numeric>
 
 namespace lambert {
 namespace {
-/// Where each face of a mesh in pieces stands in the whole: surface after surface.
+/// Where each face of a mesh in pieces stands in the whole: surface after surface, of either side,
+/// by their charts; then what has none.
 std::vector<vtkIdType> OrderOfFaces(vtkPolyData* mesh) {
+  using Names = vtkRadiosityArrays;
   const size_t faces = static_cast<size_t>(mesh->GetNumberOfCells());
-  const std::vector<int32_t> surfaces =
-      NumbersFromArray<int32_t>(RequireArray(mesh->GetCellData(), vtkRadiosityArrays::SurfaceId(),
-                                             1, faces, "mesh", "the output of lambert atlas"));
+  const auto numbers = [&](const char* name) {
+    return NumbersFromArray<int32_t>(
+        RequireArray(mesh->GetCellData(), name, 1, faces, "mesh", "the output of lambert atlas"));
+  };
+  const std::vector<int32_t> surfaces = numbers(Names::SurfaceId()),
+                             charts = numbers(Names::ChartId());
+  const bool hasSides = mesh->GetCellData()->HasArray(Names::Side()) != 0;
+  const std::vector<int32_t> sides =
+      hasSides ? numbers(Names::Side()) : std::vector<int32_t>(faces, 0);
+
+  std::map<std::array<int32_t, 2>, int32_t> firstChart;
+  for (size_t face = 0; face < faces; ++face) {
+    if (charts[face] < 0) continue;
+    int32_t& first =
+        firstChart.try_emplace({surfaces[face], sides[face]}, charts[face]).first->second;
+    first = std::min(first, charts[face]);
+  }
+  std::vector<int32_t> rank(faces, std::numeric_limits<int32_t>::max());
+  for (size_t face = 0; face < faces; ++face) {
+    if (charts[face] >= 0) rank[face] = firstChart.at({surfaces[face], sides[face]});
+  }
   std::vector<vtkIdType> order(faces);
   std::iota(order.begin(), order.end(), vtkIdType(0));
   std::stable_sort(order.begin(), order.end(), [&](vtkIdType a, vtkIdType b) {
-    return surfaces[static_cast<size_t>(a)] < surfaces[static_cast<size_t>(b)];
+    return rank[static_cast<size_t>(a)] < rank[static_cast<size_t>(b)];
   });
   return order;
 }

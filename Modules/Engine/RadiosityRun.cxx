@@ -83,6 +83,26 @@ class TimeBudget {
   double SecondsForMesh = 0, SecondsPerLink = kUsualSecondsPerLink;
 };
 
+/// Throws Error where a light map is wanted of a surface that the atlas does not hold.
+void RequireCharts(const StoredAtlas& stored, const std::string& fileName, const Scene& scene,
+                   const ClusterTree& tree, const WantedRepresentations& wanted) {
+  const std::vector<bool> isLaid = FindLaidSurfaces(stored, scene.mesh);
+  const std::vector<Representation> wishes =
+      RepresentationsOfSurfaces(scene, tree, wanted, Representation::Automatic);
+  for (size_t s = 0; s < wishes.size(); ++s) {
+    if (wishes[s] != Representation::LightMap || isLaid[s]) {
+      continue;
+    }
+    const size_t face =
+        static_cast<size_t>(tree.nodes[static_cast<size_t>(tree.surfaceRoots[s])].firstFace);
+    throw lambert::Error(
+        "The atlas in '" + fileName + "' has no charts of all of surface " + std::to_string(s) +
+        ", of material " + scene.materials[static_cast<size_t>(scene.mesh.materialId[face])].name +
+        ", whose light is to be shown in the light map; leave it to its points, or lay it flat "
+        "without this atlas.");
+  }
+}
+
 /// Faces stray where a scene is so many times as large as the place of nearly all of them.
 constexpr double kStraying = 1000;
 }  // namespace
@@ -138,6 +158,10 @@ void RadiosityRun::Cluster(const ProgressCallback& progress) {
     throw lambert::Error("The atlas in '" + this->options_.atlasFile +
                          "' is of another scene, or of this one read by other options; lay this "
                          "one flat by lambert atlas with the same options of reading.");
+  }
+  if (this->storedAtlas_) {
+    RequireCharts(*this->storedAtlas_, this->options_.atlasFile, this->scene_, this->tree_,
+                  this->options_.representations);
   }
   this->AddStage("cluster", timer.Seconds());
 }
@@ -223,8 +247,14 @@ void RadiosityRun::Represent(const ProgressCallback& progress) {
 
   // Both kinds.
   Timer timer;
-  this->represented_ = RepresentSurfaces(this->scene_.mesh, this->tree_, this->solution_, options,
-                                         *this->options_.atlas, progress);
+  if (this->storedAtlas_) {
+    this->represented_ = RepresentSurfaces(this->scene_.mesh, this->tree_, this->solution_, options,
+                                           std::move(*this->storedAtlas_), progress);
+    this->storedAtlas_.reset();
+  } else {
+    this->represented_ = RepresentSurfaces(this->scene_.mesh, this->tree_, this->solution_, options,
+                                           *this->options_.atlas, progress);
+  }
   this->atlas_ = this->represented_->atlas;
   this->lightMap_ = this->represented_->map;
   this->AddStage("light map", timer.Seconds());
@@ -256,8 +286,10 @@ void RadiosityRun::TakeStoredAtlas() {
 }
 
 void RadiosityRun::DrawLightMap(const ProgressCallback& progress) {
+  const bool isChosen =
+      this->options_.introducedTriangles || !this->options_.representations.IsEmpty();
   if (this->options_.atlas &&
-      (this->options_.introducedTriangles || !this->options_.representations.IsEmpty())) {
+      (isChosen || (this->storedAtlas_ && this->storedAtlas_->isOfChosen))) {
     this->Represent(progress);
     return;
   }

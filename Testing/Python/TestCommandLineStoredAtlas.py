@@ -56,6 +56,37 @@ for ending in ("vtp", "vtpc"):
     for mapped in ("map.vtp", "map.vtpc"):
         assert "map-1.exr" in compare(ROOMS, "model.glb", mapped, written, *sized)
 
+# As a light map of chosen surfaces and of parts leaves it: by the same options, and by none, what it holds stays in it.
+fine = "--error", "0.3", "--iterations", "5", "--page-format", "exr"
+for ending in ("vtp", "vtpc"):
+    for chosen in (("--represent", "Floor:points"), ("--introduced", "20", "--split-surfaces")):
+        folders = [temporary(f"{ending} by {chosen[0]} {run}") for run in range(3)]
+        first = os.path.join(folders[0], "map." + ending)
+        told = []
+        for folder, how in zip(folders, (("--page-size", "128", *chosen), ("--atlas", first, *chosen), ("--atlas", first))):
+            os.mkdir(folder)
+            told.append(solve(ROOMS, "-o", os.path.join(folder, "model.glb"), *fine, "--lightmap", os.path.join(folder, "map." + ending),
+                              *how)["representation"]["surfaces"])
+        files = [files_in(folder) for folder in folders]
+        assert files[0] == files[1] == files[2] and {"model.glb", "map-0.exr"} < files[0].keys(), (ending, chosen, files[0].keys())
+        assert told[0] == told[1] and {"points", "lightmap"} == {s["chosen"] for s in told[2]}
+
+# Choice on an atlas of all surfaces: what stays in the map lies where it lay, what does not leaves its place empty.
+whole, some = temporary("whole.vtp"), temporary("some.vtp")
+solve(ROOMS, "-o", temporary("any.vtp"), *fine, "--lightmap", whole, "--page-size", "128")
+told = solve(ROOMS, "-o", temporary("any.glb"), *fine, "--lightmap", some, "--atlas", whole, "--represent", "Floor:points")
+places = {}
+for name in whole, some:
+    mesh = mesh_of(name)
+    coords, charts, faces, sides = (data.GetArray(array) for data, array in (
+        (mesh.GetPointData(), "LightMapTCoords"), (mesh.GetCellData(), "ChartId"), (mesh.GetCellData(), "InputFaceId"),
+        (mesh.GetCellData(), "Side")))
+    places[name] = {(int(faces.GetValue(i)), int(sides.GetValue(i))): [coords.GetTuple(mesh.GetCell(i).GetPointId(c)) for c in range(3)]
+                    for i in range(mesh.GetNumberOfCells()) if charts.GetValue(i) >= 0}
+on_points = [s for s in told["representation"]["surfaces"] if s["chosen"] == "points"]
+assert {s["material"] for s in on_points} == {"Floor"} and len(places[some]) == len(places[whole]) - sum(s["input_triangles"] for s in on_points)
+assert all(places[whole][face] == place for face, place in places[some].items())
+
 # Other methods and other light: the same places.
 again = temporary("again.vtp")
 solve(ROOMS, "-o", temporary("any.vtp"), "--method", "reference", "--samples", "4", "--sky", "1", "1", "1", "--set", "Lamp:emission=0",
@@ -72,7 +103,7 @@ assert told["pages"] == 1 and not mesh_of(again).GetCellData().HasArray("Side") 
 # What an atlas decides is not asked for beside it; nor is it written over.
 out, mapped = temporary("never.vtp"), ("--lightmap", temporary("never-map.vtp"))
 for option, value in (("--pages", 1), ("--page-size", 64), ("--texel-size", 0.1), ("--padding", 2), ("--mip-levels", 0),
-                      ("--stretch", 2), ("--texel-density", "uniform"), ("--introduced", 5), ("--represent", "White:points")):
+                      ("--stretch", 2), ("--texel-density", "uniform")):
     fails(2, "solve", CORNELL_BOX, "-o", out, *mapped, "--atlas", flat, option, value, says=[option, "--atlas"])
 fails(2, "solve", CORNELL_BOX, "-o", out, "--atlas", flat, says=["--atlas", "--lightmap"])
 fails(2, "solve", CORNELL_BOX, "-o", out, *mapped, "--atlas", temporary("flat.obj"), says=["--atlas", ".vtp"])
@@ -109,9 +140,8 @@ refused(temporary("missing.vtp"), "cannot be opened")
 refused(flat, "another scene", scene=ROOMS)
 refused(written, "another scene")
 fails(1, "solve", CORNELL_BOX, "-o", out, *mapped, "--atlas", flat, "--unit", "cm", "--progress", "none", says=["another scene"])
-represented = temporary("represented.vtp")
-solve(CORNELL_BOX, "-o", solved, *common[:5], "--lightmap", represented, "--represent", "White:points")
-refused(represented, "lit at its points")
+fails(1, "solve", ROOMS, "-o", out, *mapped, "--atlas", some, "--represent", "Floor:lightmap", "--progress", "none",
+      says=[some, "no charts", "material Floor"])
 for array, value, says in (("Atlas.PageSize", None, "Atlas.PageSize"), ("Atlas.PageSize", 0, "Atlas.PageSize"),
                            ("Atlas.PageSize", 1 << 30, "Atlas.PageSize"), ("Atlas.Padding", -1, "Atlas.Padding"),
                            ("Atlas.TexelSize", float("nan"), "Atlas.TexelSize")):

@@ -66,6 +66,18 @@ void AppendCluster(const ClusterTree& tree, int32_t node, ClusterTree* to) {
   }
 }
 
+/// Makes clusters of `tree`, those of a surface, the next parts.
+void AppendParts(const ClusterTree& tree, const std::vector<int32_t>& nodes, int32_t surface,
+                 SurfaceParts* parts) {
+  for (const int32_t node : nodes) {
+    const ClusterNode& cluster = tree.nodes[size_t(node)];
+    std::fill_n(parts->partOfFace.begin() + cluster.firstFace, cluster.faceCount,
+                int32_t(parts->surfaceOfPart.size()));
+    parts->surfaceOfPart.push_back(surface);
+    AppendCluster(tree, node, &parts->tree);
+  }
+}
+
 /// The light of a solution at a place on a face, by the triangle there that holds it, or comes
 /// closest to that.
 class LightOnFaces {
@@ -121,15 +133,36 @@ SurfaceParts CutWhereRefined(const TriangleMesh& mesh, const ClusterTree& tree,
     const std::vector<int32_t> nodes = mayBeCut[surface]
                                            ? Cutter(tree, introduced, root).PartsOf(root)
                                            : std::vector<int32_t>{root};
-    for (const int32_t node : nodes) {
-      const ClusterNode& cluster = tree.nodes[size_t(node)];
-      std::fill_n(parts.partOfFace.begin() + cluster.firstFace, cluster.faceCount,
-                  int32_t(parts.surfaceOfPart.size()));
-      parts.surfaceOfPart.push_back(int32_t(surface));
-      AppendCluster(tree, node, &parts.tree);
-    }
+    AppendParts(tree, nodes, int32_t(surface), &parts);
   }
   return parts;
+}
+
+SurfaceParts CutWhereLaid(const SurfaceParts& parts, const std::vector<int64_t>& laidFaces) {
+  std::vector<int32_t> laid(laidFaces.size() + 1, 0);  // Before each face.
+  for (size_t face = 0; face < laidFaces.size(); ++face) {
+    laid[face + 1] = laid[face] + (laidFaces[face] >= 0);
+  }
+  SurfaceParts cut;
+  cut.partOfFace.resize(parts.partOfFace.size());
+  for (size_t part = 0; part < parts.surfaceOfPart.size(); ++part) {
+    std::vector<int32_t> nodes, open = {parts.tree.surfaceRoots[part]};
+    while (!open.empty()) {
+      const int32_t node = open.back();
+      open.pop_back();
+      const ClusterNode& cluster = parts.tree.nodes[size_t(node)];
+      const int32_t count =
+          laid[size_t(cluster.firstFace + cluster.faceCount)] - laid[size_t(cluster.firstFace)];
+      if (count == 0 || count == cluster.faceCount) {
+        nodes.push_back(node);
+      } else {
+        open.push_back(cluster.child + 1);
+        open.push_back(cluster.child);
+      }
+    }
+    AppendParts(parts.tree, nodes, parts.surfaceOfPart[part], &cut);
+  }
+  return cut;
 }
 
 std::vector<BorderPoint> FindBorders(const TriangleMesh& mesh, const RadiositySolution& solution,

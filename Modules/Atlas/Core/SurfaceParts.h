@@ -28,6 +28,9 @@ struct SurfaceParts {
 SurfaceParts CutWhereRefined(const TriangleMesh& mesh, const ClusterTree& tree,
                              const RadiositySolution& solution, const std::vector<bool>& mayBeCut);
 
+/// Cuts parts on, down their trees, until all faces of each are laid flat or none is.
+SurfaceParts CutWhereLaid(const SurfaceParts& parts, const std::vector<int64_t>& laidFaces);
+
 /// Where what a light map shows of a surface ends and points show the rest: about a place a texel
 /// along the edges between the two, and the light that points show there. `mapped` has the faces
 /// of `mesh` that `atlas` is of; `mesh`, with its uncut surfaces, and `solution` as above.

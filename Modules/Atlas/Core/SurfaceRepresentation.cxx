@@ -236,17 +236,39 @@ RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& 
   return kept.TakeScene();
 }
 
+RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& tree,
+                                   const RadiositySolution& solution,
+                                   const RepresentationOptions& options, StoredAtlas stored,
+                                   const ProgressCallback& progress) {
+  KeptRepresentation kept(mesh, tree, solution, std::move(stored));
+  kept.Represent(options, {}, progress);
+  return kept.TakeScene();
+}
+
 KeptRepresentation::KeptRepresentation(const TriangleMesh& mesh, const ClusterTree& tree,
                                        const RadiositySolution& solution)
     : solvedMesh_(mesh),
       solvedTree_(tree),
       solvedLight_(solution),
       shown_(ShowBothSides(mesh, tree, solution)) {
+  this->TakeLightOntoSides();
+}
+
+KeptRepresentation::KeptRepresentation(const TriangleMesh& mesh, const ClusterTree& tree,
+                                       const RadiositySolution& solution, StoredAtlas stored)
+    : solvedMesh_(mesh), solvedTree_(tree), solvedLight_(solution), stored_(std::move(stored)) {
+  RequireSameFaces(mesh, solution);
+  shown_ = ShowSidesOfChosen(mesh, tree, solution, *stored_);
+  laidFaces_ = FindLaidFaces(mesh, shown_ ? &*shown_ : nullptr, &*stored_);
+  this->TakeLightOntoSides();
+}
+
+void KeptRepresentation::TakeLightOntoSides() {
   if (!shown_) return;
-  onSides_ = OntoShownSides(solution, shown_->inputFace, shown_->side);
+  onSides_ = OntoShownSides(solvedLight_, shown_->inputFace, shown_->side);
   for (const int64_t point : shown_->inputPoint) {
-    if (solution.inputIrradiance.empty()) break;
-    onSides_.inputIrradiance.push_back(solution.inputIrradiance[size_t(point)]);
+    if (solvedLight_.inputIrradiance.empty()) break;
+    onSides_.inputIrradiance.push_back(solvedLight_.inputIrradiance[size_t(point)]);
   }
 }
 
@@ -274,6 +296,10 @@ void KeptRepresentation::Represent(const RepresentationOptions& options,
       ofParts.wanted.push_back(WantedOf(wanted, size_t(s)));
     wanted = ofParts;
   }
+  if (wanted.wanted.empty()) wanted.wanted.resize(candidates_.costs.size());
+  for (size_t row = 0; row < candidates_.costs.size(); ++row) {
+    if (!this->IsLaid(row)) wanted.wanted[row] = Representation::Points;
+  }
   std::vector<SurfaceCost> surfaces = candidates_.costs;
   ChooseRepresentations(wanted, &surfaces);
   this->Take(surfaces);
@@ -287,10 +313,11 @@ void KeptRepresentation::Represent(const RepresentationOptions& options,
 
 void KeptRepresentation::Measure(const RepresentationOptions& options) {
   std::optional<std::vector<bool>> mayBeCut;
-  if (options.splitSurfaces) {
+  if (options.splitSurfaces || (stored_ && stored_->isOfChosen)) {
     mayBeCut.emplace();
     for (size_t s = 0; s < this->Tree().surfaceRoots.size(); ++s) {
-      mayBeCut->push_back(WantedOf(options, s) == Representation::Automatic);
+      const bool isOpen = WantedOf(options, s) == Representation::Automatic;
+      mayBeCut->push_back(options.splitSurfaces && isOpen);
     }
   }
   if (!candidates_.costs.empty() && candidates_.mayBeCut == mayBeCut) return;
@@ -302,6 +329,7 @@ void KeptRepresentation::Measure(const RepresentationOptions& options) {
     const TriangleMesh& mesh = this->Mesh();
     candidates_.light = TakeTriangles(this->Light(), TrianglesOnBrighterSides(mesh, this->Light()));
     SurfaceParts parts = CutWhereRefined(mesh, this->Tree(), candidates_.light, *mayBeCut);
+    if (stored_) parts = CutWhereLaid(parts, laidFaces_);
     candidates_.mesh = mesh;
     candidates_.mesh.surfaceId = std::move(parts.partOfFace);
     candidates_.tree = std::move(parts.tree);
@@ -314,6 +342,12 @@ void KeptRepresentation::Measure(const RepresentationOptions& options) {
   for (size_t row = 0; row < candidates_.costs.size(); ++row) {
     candidates_.costs[row].surface = int32_t(row);
   }
+}
+
+bool KeptRepresentation::IsLaid(size_t row) const {
+  if (!stored_) return true;
+  const ClusterTree& tree = candidates_.mayBeCut ? candidates_.tree : this->Tree();
+  return laidFaces_[size_t(tree.nodes[size_t(tree.surfaceRoots[row])].firstFace)] >= 0;
 }
 
 void KeptRepresentation::Take(const std::vector<SurfaceCost>& surfaces) {
@@ -348,15 +382,20 @@ void KeptRepresentation::Take(const std::vector<SurfaceCost>& surfaces) {
   isMapped_ = std::move(isMapped);
 }
 
-void KeptRepresentation::Draw(const AtlasOptions& options, const ProgressCallback& progress) {
-  if (drawn_ && *drawn_ == options) return;
-  drawn_.reset();
+void KeptRepresentation::LayFlat(const AtlasOptions& options, const ProgressCallback& progress) {
+  // Where they lie already.
+  if (stored_) {
+    std::vector<int64_t> faces;
+    for (const int64_t face : mappedFaces_) faces.push_back(laidFaces_[size_t(face)]);
+    scene_.atlas = TakeFacesOfAtlas(stored_->atlas, faces);
+    return;
+  }
+
+  // Their charts, and the places of these.
   const SurfaceSubset& mapped = scene_.mapped;
   const auto layFlat = [&](double fraction, const char* stage) {
     return Report(progress, 0.7 * fraction, stage);
   };
-
-  // Their charts, and the places of these.
   const ChartOptions chartOptions = ChartOptionsOf(mapped.tree, options);
   if (!charts_.IsOf(chartOptions)) {
     charts_ = CutIntoCharts(
@@ -368,6 +407,12 @@ void KeptRepresentation::Draw(const AtlasOptions& options, const ProgressCallbac
       WithTexelDensity(mapped.mesh, PackAtlas(charts_, options, layFlat), mapped.solution, options,
                        [&](double, const char* stage) { return Report(progress, 0.7, stage); });
   ++counts_.packings;
+}
+
+void KeptRepresentation::Draw(const AtlasOptions& options, const ProgressCallback& progress) {
+  if (drawn_ && *drawn_ == options) return;
+  drawn_.reset();
+  this->LayFlat(options, progress);
 
   // Light on the faces of the mesh that was taken from, then told of that which was solved.
   scene_.mapped.inputFace = mappedFaces_;

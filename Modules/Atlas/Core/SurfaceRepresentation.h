@@ -9,6 +9,7 @@
 
 #include "Atlas/Core/LightMap.h"
 #include "Atlas/Core/ShownSides.h"
+#include "Atlas/Core/StoredAtlas.h"
 #include "Atlas/Core/SurfaceSubset.h"
 
 namespace lambert {
@@ -79,6 +80,13 @@ RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& 
                                    const AtlasOptions& atlasOptions,
                                    const ProgressCallback& progress = {});
 
+/// The same on an atlas that is there (IsAtlasOf): surfaces of the light map lie where they lie on
+/// it, and those that it has no charts of are lit at their points, whatever is wanted.
+RepresentedScene RepresentSurfaces(const TriangleMesh& mesh, const ClusterTree& tree,
+                                   const RadiositySolution& solution,
+                                   const RepresentationOptions& options, StoredAtlas stored,
+                                   const ProgressCallback& progress = {});
+
 /// The same for those who represent one solution again and again: what is still valid is not made
 /// anew, and no result depends on what was there before. Mesh, tree and solution have to outlive
 /// it.
@@ -87,6 +95,9 @@ class KeptRepresentation {
   /// Throws Error where the three do not belong together.
   KeptRepresentation(const TriangleMesh& mesh, const ClusterTree& tree,
                      const RadiositySolution& solution);
+  /// On an atlas of the mesh, whatever the options of one say.
+  KeptRepresentation(const TriangleMesh& mesh, const ClusterTree& tree,
+                     const RadiositySolution& solution, StoredAtlas stored);
   ~KeptRepresentation();
   KeptRepresentation(const KeptRepresentation&) = delete;
   KeptRepresentation& operator=(const KeptRepresentation&) = delete;
@@ -122,7 +133,10 @@ class KeptRepresentation {
   const ClusterTree& Tree() const { return shown_ ? shown_->tree : solvedTree_; }
   const RadiositySolution& Light() const { return shown_ ? onSides_ : solvedLight_; }
   ///@}
+  void TakeLightOntoSides();
   void Measure(const RepresentationOptions& options);
+  bool IsLaid(size_t row) const;
+  void LayFlat(const AtlasOptions& options, const ProgressCallback& progress);
   void Take(const std::vector<SurfaceCost>& surfaces);
   void Draw(const AtlasOptions& options, const ProgressCallback& progress);
   void TellOfSolvedMesh(SurfaceCost* cost) const;
@@ -130,7 +144,9 @@ class KeptRepresentation {
   const TriangleMesh& solvedMesh_;
   const ClusterTree& solvedTree_;
   const RadiositySolution& solvedLight_;
+  std::optional<StoredAtlas> stored_;
   std::optional<ShownSides> shown_;
+  std::vector<int64_t> laidFaces_;  ///< of Mesh(), on `stored_` (FindLaidFaces)
   RadiositySolution onSides_;
   Candidates candidates_;
   std::vector<char> isMapped_;         ///< by row: as `scene_` has been taken; empty: it has not

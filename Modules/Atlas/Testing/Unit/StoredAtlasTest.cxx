@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "Atlas/Core/LightMap.h"
+#include "Atlas/Core/SurfaceRepresentation.h"
 #include "AtlasMeshes.h"
 
 namespace lambert {
@@ -130,6 +131,128 @@ TEST(StoredAtlas, ShowsTheSidesThatAnotherLightFallsOn) {
     for (size_t c = 0; c < 3; ++c) {
       EXPECT_EQ(places[size_t(split.triangles[face][c])], stored.atlas.textureCoords[face][c]);
     }
+  }
+}
+
+RepresentationOptions Wanting(const std::vector<Representation>& wanted) {
+  RepresentationOptions options;
+  options.wanted = wanted;
+  return options;
+}
+
+/// What a light map took, as a file has it.
+StoredAtlas StoreChosen(const RepresentedScene& scene) {
+  StoredAtlas stored;
+  stored.atlas = scene.atlas;
+  stored.isOfChosen = true;
+  stored.inputFace = scene.mapped.inputFace;
+  if (scene.hasSheets) stored.side = SidesOfMappedFaces(scene);
+  for (int64_t face = 0; face < scene.mapped.mesh.FaceCount(); ++face) {
+    stored.corners.push_back(CornersOf(scene.mapped.mesh, face));
+  }
+  return stored;
+}
+
+constexpr Representation kMap = Representation::LightMap, kPoints = Representation::Points;
+
+// Surfaces that are left to their points do not use their charts, whichever sides it was made of.
+TEST(StoredAtlas, HoldsWhatIsChosenWhereItLies) {
+  const TwoSheets sheets;
+  for (const Light& light : {kFronts, kOneSheet}) {
+    const StoredAtlas stored = sheets.Laid(light);
+    const RepresentedScene scene = RepresentSurfaces(sheets.mesh, sheets.tree, sheets.Lit(light),
+                                                     Wanting({kMap, kPoints}), stored);
+    const size_t sides = light == kFronts ? 1 : 2, half = sheets.mesh.triangles.size() / 2;
+    ASSERT_EQ(scene.mapped.inputFace.size(), sides * half);
+    ASSERT_EQ(scene.points.inputFaceId.size(), half);
+    EXPECT_EQ(scene.atlas.texelSize, stored.atlas.texelSize);
+    EXPECT_LT(scene.atlas.utilisation, stored.atlas.utilisation);
+    const std::vector<uint8_t> shows = SidesOfMappedFaces(scene);
+    for (size_t face = 0; face < scene.mapped.inputFace.size(); ++face) {
+      size_t of = size_t(scene.mapped.inputFace[face]);
+      if (!stored.side.empty() && stored.side[of] != shows[face]) of += 2 * half;
+      EXPECT_EQ(scene.atlas.textureCoords[face], stored.atlas.textureCoords[of]) << face;
+      for (size_t c = 0; c < 3; ++c) {
+        const Spectrum found = Lookup(scene.map, 0, scene.atlas.textureCoords[face][c]);
+        const float wanted =
+            light[0][shows[face]] * At(CornersOf(scene.mapped.mesh, int64_t(face))[c]);
+        EXPECT_NEAR(found.r, wanted, 0.01 * double(wanted));
+      }
+    }
+  }
+}
+
+// Pages that nothing is left on are none.
+TEST(StoredAtlas, LeavesOutEmptyPages) {
+  const TwoSheets sheets;
+  StoredAtlas stored = sheets.Laid(kFronts);
+  const std::vector<int32_t> charts = ChartOfFace(stored.atlas.set);
+  for (size_t face = 0; face < charts.size(); ++face) {
+    stored.atlas.pageOfChart[size_t(charts[face])] = sheets.mesh.surfaceId[face] == 0 ? 1 : 2;
+  }
+  stored.atlas.pages = 3;
+  const RepresentedScene scene = RepresentSurfaces(sheets.mesh, sheets.tree, sheets.Lit(kFronts),
+                                                   Wanting({kPoints, kMap}), stored);
+  EXPECT_EQ(scene.atlas.pages, 1);
+  EXPECT_EQ(scene.map.pages.size(), 1u);
+  for (const int32_t page : scene.atlas.pageOfChart) EXPECT_EQ(page, 0);
+}
+
+TEST(StoredAtlas, OfChosenSurfacesLeavesTheOthersToTheirPoints) {
+  const TwoSheets sheets;
+  for (const Light& light : {kFronts, kOneSheet}) {
+    const RadiositySolution solution = sheets.Lit(light);
+    AtlasOptions page;
+    page.pageSize = 256;
+    const RepresentedScene first =
+        RepresentSurfaces(sheets.mesh, sheets.tree, solution, Wanting({kMap, kPoints}), page);
+    const StoredAtlas stored = StoreChosen(first);
+    ASSERT_TRUE(IsAtlasOf(stored, sheets.mesh, sheets.tree));
+    EXPECT_EQ(FindLaidSurfaces(stored, sheets.mesh), (std::vector<bool>{true, false}));
+    const RepresentedScene again =
+        RepresentSurfaces(sheets.mesh, sheets.tree, solution, Wanting({kMap, kMap}), stored);
+    EXPECT_EQ(again.mapped.inputFace, first.mapped.inputFace);
+    EXPECT_EQ(again.atlas.textureCoords, first.atlas.textureCoords);
+    EXPECT_EQ(again.map.pages, first.map.pages);
+    EXPECT_EQ(again.points.inputFaceId, first.points.inputFaceId);
+  }
+}
+
+// The chart of a side goes to the one that is lit now, unless both show.
+TEST(StoredAtlas, OfChosenSurfacesFollowsTheLight) {
+  const TwoSheets sheets;
+  AtlasOptions page;
+  page.pageSize = 256;
+  const StoredAtlas stored = StoreChosen(RepresentSurfaces(
+      sheets.mesh, sheets.tree, sheets.Lit(kFronts), Wanting({kMap, kPoints}), page));
+  const Light fromBelow = {{{0, 1}, {0, 0.6f}}}, onBoth = {{{0.4f, 1}, {0.6f, 0}}};
+  for (const Light& light : {fromBelow, onBoth}) {
+    const RepresentedScene scene = RepresentSurfaces(sheets.mesh, sheets.tree, sheets.Lit(light),
+                                                     Wanting({kMap, kMap}), stored);
+    ASSERT_EQ(scene.mapped.inputFace.size(), stored.corners.size());
+    for (size_t face = 0; face < stored.corners.size(); ++face) {
+      for (size_t c = 0; c < 3; ++c) {
+        const float wanted = At(CornersOf(scene.mapped.mesh, int64_t(face))[c]);
+        EXPECT_NEAR(Lookup(scene.map, 0, scene.atlas.textureCoords[face][c]).r, wanted,
+                    0.01 * double(wanted));
+      }
+    }
+  }
+}
+
+TEST(StoredAtlas, OfChosenSurfacesIsOfNoOtherMesh) {
+  const TwoSheets sheets;
+  AtlasOptions page;
+  page.pageSize = 256;
+  StoredAtlas stored = StoreChosen(RepresentSurfaces(sheets.mesh, sheets.tree, sheets.Lit(kFronts),
+                                                     Wanting({kPoints, kMap}), page));
+  TriangleMesh moved = sheets.mesh;
+  moved.positions[size_t(moved.triangles.back()[0])].z += 0.01f;
+  EXPECT_FALSE(IsAtlasOf(stored, moved, sheets.tree));
+  for (const int64_t face : {int64_t(-1), int64_t(1) << 40, stored.inputFace[1]}) {
+    StoredAtlas wrong = stored;
+    wrong.inputFace[0] = face;
+    EXPECT_FALSE(IsAtlasOf(wrong, sheets.mesh, sheets.tree)) << face;
   }
 }
 

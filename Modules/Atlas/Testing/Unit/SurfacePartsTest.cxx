@@ -99,6 +99,51 @@ TEST(SurfaceParts, StayWholeWhereTheyMayNotBeCutAndWhereAllIsAlike) {
   }
 }
 
+TEST(SurfaceParts, AreCutOnWhereChartsEnd) {
+  const HalfRefined floor;
+  const SurfaceParts whole = CutWhereRefined(floor.mesh, floor.tree, floor.solution, {false});
+  std::vector<int64_t> laid;
+  for (int64_t face = 0; face < floor.mesh.FaceCount(); ++face) {
+    laid.push_back(floor.IsRefined(face) ? face : -1);
+  }
+  const SurfaceParts cut = CutWhereLaid(whole, laid);
+  ASSERT_GT(cut.surfaceOfPart.size(), 1u);
+  for (size_t part = 0; part < cut.surfaceOfPart.size(); ++part) {
+    const ClusterNode& root = cut.tree.nodes[size_t(cut.tree.surfaceRoots[part])];
+    const bool isLaid = laid[size_t(root.firstFace)] >= 0;
+    for (int32_t face = root.firstFace; face < root.firstFace + root.faceCount; ++face) {
+      EXPECT_EQ(cut.partOfFace[size_t(face)], int32_t(part));
+      EXPECT_EQ(laid[size_t(face)] >= 0, isLaid);
+    }
+  }
+  laid.assign(laid.size(), 0);
+  EXPECT_EQ(CutWhereLaid(whole, laid).surfaceOfPart.size(), 1u);
+}
+
+// What was chosen once is the same on its own atlas, whatever is cut now.
+TEST(SurfaceParts, LieWhereAnEarlierChoiceLaidThem) {
+  const HalfRefined floor;
+  const RepresentedScene first =
+      RepresentSurfaces(floor.mesh, floor.tree, floor.solution, Split(), Page());
+  StoredAtlas stored;
+  stored.atlas = first.atlas;
+  stored.isOfChosen = true;
+  stored.inputFace = first.mapped.inputFace;
+  for (int64_t face = 0; face < first.mapped.mesh.FaceCount(); ++face) {
+    stored.corners.push_back(CornersOf(first.mapped.mesh, face));
+  }
+  ASSERT_TRUE(IsAtlasOf(stored, floor.mesh, floor.tree));
+  RepresentationOptions whole;
+  whole.wanted = {Representation::LightMap};
+  for (const RepresentationOptions& options : {Split(), whole}) {
+    const RepresentedScene again =
+        RepresentSurfaces(floor.mesh, floor.tree, floor.solution, options, stored);
+    EXPECT_EQ(again.mapped.inputFace, first.mapped.inputFace);
+    EXPECT_EQ(again.map.pages, first.map.pages);
+    EXPECT_EQ(again.points.inputFaceId, first.points.inputFaceId);
+  }
+}
+
 TEST(SurfaceParts, ShowBothKindsOnOneSurfaceWithoutAStep) {
   for (const uint8_t side : {uint8_t(kFront), uint8_t(kBack)}) {
     const HalfRefined floor(side);
