@@ -98,7 +98,7 @@ at = uncut[0]["POSITION"]
 floor = np.unique(at[(at[:, 1] == 0) & (np.abs(at[:, 0] - 2.5) > 0.1) & (at > (0.1, -1, 0.1)).all(axis=1) & (at < (4.9, 1, 2.9)).all(axis=1)], axis=0)
 floor = floor[~np.isnan(cut.shown(page_of_cut, floor)[:, 0])]
 step = steps(cut, page_of_cut, uncut, floor)
-assert len(floor) > 30 and np.sqrt((step ** 2).mean()) < 0.6 and np.abs(step).max() < 2.5, (len(floor), np.abs(step).max())
+assert len(floor) > 30 and np.sqrt((step ** 2).mean()) < 0.3 and np.abs(step).max() < 1, (len(floor), np.abs(step).max())
 
 # Under a texture, checks of half a metre: image and light at the points, both in one on the page. A curve that bends in
 # what is shown bends both alike; toned by the texel the page would be 4 codes off.

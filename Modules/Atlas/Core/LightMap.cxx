@@ -360,6 +360,7 @@ LightMap MakeLightMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
   LightMap map;
   map.pageSize = atlas.pageSize;
   double mean = 0;
+  std::vector<std::vector<uint8_t>> isDrawn;
   for (size_t page = 0; page < canvases.size(); ++page) {
     Canvas& canvas = canvases[page];
     for (size_t i = 0; i < texels; ++i) {
@@ -367,6 +368,7 @@ LightMap MakeLightMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
       ++map.coveredTexels;
       mean += double(canvas.texels[i].Mean());
     }
+    isDrawn.push_back(canvas.isFilled);
     Extend(atlas.pageSize, atlas.padding, std::move(touched[page]), &canvas);
     map.pages.push_back(std::move(canvas.texels));
   }
@@ -377,7 +379,7 @@ LightMap MakeLightMap(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
   const std::vector<SeamPoint> seams = FindSeams(mesh, atlas, chartOfFace, borders);
   map.seamPoints = int64_t(seams.size());
   map.before = MeasureSeams(seams, map, mean);
-  CloseSeams(seams, mean, &map);
+  CloseSeams(seams, mean, isDrawn, &map);
   map.after = MeasureSeams(seams, map, mean);
   if (!Report(progress, 0.8, "filling between charts")) throw Cancelled();
   for (size_t page = 0; page < map.pages.size(); ++page) {

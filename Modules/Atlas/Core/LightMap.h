@@ -20,8 +20,9 @@ struct SeamDifference {
 /// A place on the border of what a light map shows, and what the points beyond it show there.
 struct BorderPoint {
   int32_t page = 0;
-  Vec2f textureCoords;  ///< [0, 1], v upward
-  Spectrum irradiance;  ///< W/m2
+  Vec2f textureCoords;   ///< [0, 1], v upward
+  Spectrum irradiance;   ///< W/m2
+  bool isClosed = true;  ///< else the difference there is measured alone
 };
 
 struct LightMap {

@@ -1,6 +1,6 @@
 #include "Atlas/Core/LightMapSeams.h"
 
-#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <unordered_map>
@@ -11,10 +11,13 @@ namespace lambert {
 
 namespace {
 
-/// What moving a texel costs beside a difference at a point of a seam.
-constexpr double kStay = 0.1;
-constexpr double kSolverTolerance = 1e-6;
-constexpr int kMostSolverSteps = 1000;
+/// What moving a texel costs beside a difference at a point of a seam; one around a chart, which
+/// shows within half a texel of its edge alone; and one that is held in the dark.
+constexpr double kStay = 1e-3, kStayAround = 1e-5, kHeld = 1e3;
+/// In parts of the mean irradiance, what a texel may fall below 0 before it is held there.
+constexpr double kBelow = 1e-4;
+/// Solutions at most, each of which holds more texels.
+constexpr int kMostRounds = 10;
 
 double Norm(const Spectrum& s) { return std::sqrt(SquaredNorm(s) / 3); }
 
@@ -23,6 +26,56 @@ Spectrum LightAt(const SeamPoint& seam, size_t side, const LightMap& map) {
   if (seam.pages[side] < 0) return seam.fixed;
   return seam.footprints[side].Lookup(map.pages[size_t(seam.pages[side])]);
 }
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+/// The texels of seams by least squares, none of them darker than 0: `differences` of the two
+/// sides, by point of a seam, and how far texels move, weighed by `stays`.
+class Closing {
+ public:
+  Closing(const Matrix& differences, const Eigen::VectorXd& stays, double mean)
+      : transposed_(differences.transpose()),
+        squares_(transposed_ * differences),
+        stays_(stays),
+        mean_(mean) {
+    solver_.analyzePattern(squares_ + Diagonal(stays));
+  }
+
+  /// From the texels as they were, W/m2, and what is fixed beyond the points.
+  Eigen::VectorXd Solve(const Eigen::VectorXd& was, const Eigen::VectorXd& fixed) {
+    const Eigen::VectorXd beyond = transposed_ * fixed;
+    Eigen::VectorXd stays = stays_, goal = stays_.cwiseProduct(was);
+    if (!isFree_) solver_.factorize(squares_ + Diagonal(stays));
+    isFree_ = true;
+    Eigen::VectorXd is = solver_.solve(beyond + goal);
+    // Those that would have to be darker than dark stay so, and others make up for it.
+    for (int round = 1; round < kMostRounds && is.minCoeff() < -kBelow * mean_; ++round) {
+      for (Eigen::Index i = 0; i < is.size(); ++i) {
+        if (!(is[i] < -kBelow * mean_)) continue;
+        stays[i] = kHeld / (mean_ * mean_);
+        goal[i] = 0;
+      }
+      solver_.factorize(squares_ + Diagonal(stays));
+      isFree_ = false;
+      is = solver_.solve(beyond + goal);
+    }
+    return is.cwiseMax(0);
+  }
+
+ private:
+  static Matrix Diagonal(const Eigen::VectorXd& values) {
+    Matrix diagonal(values.size(), values.size());
+    diagonal.reserve(Eigen::VectorXi::Constant(values.size(), 1));
+    for (Eigen::Index i = 0; i < values.size(); ++i) diagonal.insert(i, i) = values[i];
+    return diagonal;
+  }
+
+  const Matrix transposed_, squares_;
+  const Eigen::VectorXd& stays_;
+  const double mean_;
+  Eigen::SimplicialLDLT<Matrix> solver_;
+  bool isFree_ = false;  ///< it was last factored with no texel held
+};
 
 }  // namespace
 
@@ -44,21 +97,21 @@ std::vector<SeamPoint> FindSeams(const TriangleMesh& mesh, const RadiosityAtlas&
     for (size_t side = 0; side < 2; ++side) {
       length = std::max(length, std::hypot(to[side].x - from[side].x, to[side].y - from[side].y));
     }
-    const int count = 1 + int(length * float(atlas.pageSize));
-    for (int i = 0; i < count; ++i) {
-      const float part = (float(i) + 0.5f) / float(count);
+    ForEachPlaceAlong(length * float(atlas.pageSize), [&](float part, bool isClosed) {
       const auto at = [&](size_t side) {
         return Footprint(atlas.pageSize, from[side] + (to[side] - from[side]) * part);
       };
-      seams.push_back(
-          {{atlas.pageOfChart[charts[0]], atlas.pageOfChart[charts[1]]}, {at(0), at(1)}, {}});
-    }
+      seams.push_back({{atlas.pageOfChart[charts[0]], atlas.pageOfChart[charts[1]]},
+                       {at(0), at(1)},
+                       {},
+                       isClosed});
+    });
   });
 
   // And what they border on.
   for (const BorderPoint& point : borders) {
     const Footprint footprint(atlas.pageSize, point.textureCoords);
-    seams.push_back({{point.page, -1}, {footprint, footprint}, point.irradiance});
+    seams.push_back({{point.page, -1}, {footprint, footprint}, point.irradiance, point.isClosed});
   }
   return seams;
 }
@@ -76,15 +129,18 @@ SeamDifference MeasureSeams(const std::vector<SeamPoint>& seams, const LightMap&
   return difference;
 }
 
-void CloseSeams(const std::vector<SeamPoint>& seams, double mean, LightMap* map) {
+void CloseSeams(const std::vector<SeamPoint>& seams, double mean,
+                const std::vector<std::vector<uint8_t>>& isDrawn, LightMap* map) {
   if (seams.empty() || !(mean > 0)) return;
   // The texels that are looked up, as unknowns.
   std::unordered_map<uint64_t, int> unknownOfTexel;
   std::vector<Spectrum*> texels;
+  std::vector<double> costs;
   const size_t pageTexels = size_t(map->pageSize) * size_t(map->pageSize);
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<double> weights(seams.size());
   for (size_t s = 0; s < seams.size(); ++s) {
+    if (!seams[s].isClosed) continue;
     const Spectrum light = LightAt(seams[s], 0, *map) + LightAt(seams[s], 1, *map);
     weights[s] = 1 / std::max(mean, Norm(light * 0.5f));
     for (size_t side = 0; side < 2; ++side) {
@@ -94,42 +150,36 @@ void CloseSeams(const std::vector<SeamPoint>& seams, double mean, LightMap* map)
         const size_t page = size_t(seams[s].pages[side]);
         const auto [place, isNew] =
             unknownOfTexel.try_emplace(page * pageTexels + footprint.texels[i], int(texels.size()));
-        if (isNew) texels.push_back(&map->pages[page][footprint.texels[i]]);
+        if (isNew) {
+          texels.push_back(&map->pages[page][footprint.texels[i]]);
+          costs.push_back(isDrawn[page][footprint.texels[i]] ? kStay : kStayAround);
+        }
         entries.emplace_back(int(s), place->second,
                              weights[s] * (side == 0 ? footprint.parts[i] : -footprint.parts[i]));
       }
     }
   }
 
-  // Least squares: the differences, and how far texels move.
-  const int count = int(texels.size());
-  Eigen::SparseMatrix<double> difference(int(seams.size()), count), stay(count, count);
-  difference.setFromTriplets(entries.begin(), entries.end());
+  // Those that agree, band after band.
+  const Eigen::Index count = Eigen::Index(texels.size());
+  Matrix differences(Eigen::Index(seams.size()), count);
+  differences.setFromTriplets(entries.begin(), entries.end());
   Eigen::VectorXd stays(count);
-  entries.clear();
-  for (int i = 0; i < count; ++i) {
+  for (Eigen::Index i = 0; i < count; ++i) {
     const double light = std::max(mean, Norm(*texels[size_t(i)]));
-    stays[i] = kStay / (light * light);
-    entries.emplace_back(i, i, stays[i]);
+    stays[i] = costs[size_t(i)] / (light * light);
   }
-  stay.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SparseMatrix<double> matrix =
-      Eigen::SparseMatrix<double>(difference.transpose()) * difference + stay;
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver;
-  solver.setTolerance(kSolverTolerance);
-  solver.setMaxIterations(kMostSolverSteps);
-  solver.compute(matrix);
+  Closing closing(differences, stays, mean);
   for (int band = 0; band < 3; ++band) {
-    Eigen::VectorXd was(count);
-    for (int i = 0; i < count; ++i) was[i] = double((*texels[size_t(i)])[band]);
-    Eigen::VectorXd fixed(int(seams.size()));
+    Eigen::VectorXd was(count), fixed(Eigen::Index(seams.size()));
+    for (Eigen::Index i = 0; i < count; ++i) was[i] = double((*texels[size_t(i)])[band]);
     for (size_t s = 0; s < seams.size(); ++s) {
-      fixed[int(s)] = seams[s].pages[1] < 0 ? weights[s] * double(seams[s].fixed[band]) : 0;
+      fixed[Eigen::Index(s)] =
+          seams[s].pages[1] < 0 ? weights[s] * double(seams[s].fixed[band]) : 0;
     }
-    const Eigen::VectorXd wanted = difference.transpose() * fixed + stays.cwiseProduct(was);
-    const Eigen::VectorXd is = solver.solveWithGuess(wanted, was);
+    const Eigen::VectorXd is = closing.Solve(was, fixed);
     if (!is.allFinite()) continue;
-    for (int i = 0; i < count; ++i) (*texels[size_t(i)])[band] = float(std::max(0., is[i]));
+    for (Eigen::Index i = 0; i < count; ++i) (*texels[size_t(i)])[band] = float(is[i]);
   }
 }
 

@@ -36,15 +36,25 @@ struct Footprint {
   }
 };
 
+/// Calls visit(part, isClosed) for places from one end of an edge, 0, to the other, 1, that is
+/// `length` texels long: every half texel and at the ends lookups are made to agree, and halfway
+/// between they are measured, too.
+template <class Visit>
+void ForEachPlaceAlong(float length, const Visit& visit) {
+  const int count = 2 * (1 + int(2 * length));
+  for (int i = 0; i <= count; ++i) visit(float(i) / float(count), i % 2 == 0);
+}
+
 /// A point of a seam as it lies on both sides; on a border the light beyond is fixed.
 struct SeamPoint {
   std::array<int32_t, 2> pages;  ///< the second is -1 on a border
   std::array<Footprint, 2> footprints;
-  Spectrum fixed;  ///< of the second side of a border, W/m2
+  Spectrum fixed;        ///< of the second side of a border, W/m2
+  bool isClosed = true;  ///< else it is only measured
 };
 
-/// About a point a texel along every cut edge whose faces share its points: what
-/// they do not share is creased, and light may differ. Then the borders.
+/// Along every cut edge whose faces share its points (ForEachPlaceAlong): what they do not share is
+/// creased, and light may differ. Then the borders.
 std::vector<SeamPoint> FindSeams(const TriangleMesh& mesh, const RadiosityAtlas& atlas,
                                  const std::vector<int32_t>& chartOfFace,
                                  const std::vector<BorderPoint>& borders);
@@ -52,8 +62,11 @@ std::vector<SeamPoint> FindSeams(const TriangleMesh& mesh, const RadiosityAtlas&
 /// `mean` is the mean irradiance of the map, W/m2.
 SeamDifference MeasureSeams(const std::vector<SeamPoint>& seams, const LightMap& map, double mean);
 
-/// Moves the texels of seams by as little as may be until lookups on both sides agree; all in parts
-/// of the light there or of `mean`, whichever is more, or lamps would have all the say.
-void CloseSeams(const std::vector<SeamPoint>& seams, double mean, LightMap* map);
+/// Moves the texels of seams by as little as may be until lookups on both sides agree, those that
+/// no triangle gives light to before others; none gets darker than 0. All in parts of the light
+/// there or of `mean`, whichever is more, or lamps would have all the say. `isDrawn`, by page and
+/// texel: whether a triangle gives it light.
+void CloseSeams(const std::vector<SeamPoint>& seams, double mean,
+                const std::vector<std::vector<uint8_t>>& isDrawn, LightMap* map);
 
 }  // namespace lambert

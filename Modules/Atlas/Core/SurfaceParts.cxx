@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "Atlas/Core/ChartMesh.h"
+#include "Atlas/Core/LightMapSeams.h"
 
 namespace lambert {
 namespace {
@@ -185,13 +186,12 @@ std::vector<BorderPoint> FindBorders(const TriangleMesh& mesh, const RadiositySo
     const Vec3f end = mesh.Corner(int64_t(edge.faces[in]), int(edge.to[in]));
 
     // What the other side shows along it.
-    const int count = 1 + int(std::hypot(to.x - from.x, to.y - from.y) * float(atlas.pageSize));
-    for (int i = 0; i < count; ++i) {
-      const float part = (float(i) + 0.5f) / float(count);
+    const float length = std::hypot(to.x - from.x, to.y - from.y) * float(atlas.pageSize);
+    ForEachPlaceAlong(length, [&](float part, bool isClosed) {
       borders.push_back({atlas.pageOfChart[size_t(chartOfFace[size_t(face)])],
                          from + (to - from) * part,
-                         light.At(edge.faces[out], begin + (end - begin) * part)});
-    }
+                         light.At(edge.faces[out], begin + (end - begin) * part), isClosed});
+    });
   });
   return borders;
 }

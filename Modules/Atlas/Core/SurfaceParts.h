@@ -31,9 +31,9 @@ SurfaceParts CutWhereRefined(const TriangleMesh& mesh, const ClusterTree& tree,
 /// Cuts parts on, down their trees, until all faces of each are laid flat or none is.
 SurfaceParts CutWhereLaid(const SurfaceParts& parts, const std::vector<int64_t>& laidFaces);
 
-/// Where what a light map shows of a surface ends and points show the rest: about a place a texel
-/// along the edges between the two, and the light that points show there. `mapped` has the faces
-/// of `mesh` that `atlas` is of; `mesh`, with its uncut surfaces, and `solution` as above.
+/// Where what a light map shows of a surface ends and points show the rest: places along the edges
+/// between the two (ForEachPlaceAlong), and the light that points show there. `mapped` has the
+/// faces of `mesh` that `atlas` is of; `mesh`, with its uncut surfaces, and `solution` as above.
 std::vector<BorderPoint> FindBorders(const TriangleMesh& mesh, const RadiositySolution& solution,
                                      const SurfaceSubset& mapped, const RadiosityAtlas& atlas);
 
