@@ -1,5 +1,6 @@
 #include "LitModel.h"
 
+#include "Atlas/Core/BrightenedImage.h"
 #include "Atlas/Core/ChartMesh.h"
 #include "Atlas/Core/RadiosityMap.h"
 #include "Atlas/Core/ShownSides.h"
@@ -68,9 +69,11 @@ class PointLitMeshes {
       }
     }
     this->AddColored(plain);
+    const size_t firstTextured = this->model_.meshes.size();
     for (const auto& [material, ofMaterial] : textured) {
       this->AddTextured(material, ofMaterial);
     }
+    this->BrightenImages(firstTextured);
   }
 
  private:
@@ -97,7 +100,8 @@ class PointLitMeshes {
     this->model_.meshes.push_back(std::move(lit));
   }
 
-  /// Colours by which the mean of the image becomes what the display shows of the texture's mean.
+  /// Colours by which the mean of the image becomes what the display shows of the texture's mean,
+  /// above 1 where the image is too dark for that.
   void AddTextured(int32_t material, const std::vector<int64_t>& triangles) {
     const Material& surface = this->scene_.materials[static_cast<size_t>(material)];
     const BaseTexture& texture = *surface.baseTexture;
@@ -112,17 +116,51 @@ class PointLitMeshes {
       const Spectrum shown = LinearDisplay(this->toneMapping_, mean * this->solution_.irradiance[p],
                                            &this->model_.clippedPoints);
       Spectrum light;
-      bool isClipped = false;
       for (int band = 0; band < 3; ++band) {
         light[band] = mean[band] > 0 ? texture.factor[band] * shown[band] / mean[band] : 0;
-        isClipped |= light[band] > 1;
-        light[band] = std::min(1.f, light[band]);
       }
-      this->model_.clippedPoints += isClipped;
       lit.colors.push_back(light);
       lit.textureCoords.push_back(PlaceInImage(texture.map, this->solution_.mesh.uvs[p]));
     }
     this->model_.meshes.push_back(std::move(lit));
+  }
+
+  /// No format lets a colour exceed 1. Images that are too dark for their colours are brightened,
+  /// as far as their own texels stay within the display; colours that are above 1 still clip.
+  void BrightenImages(size_t firstMesh) {
+    std::map<int, Spectrum> factors;
+    const auto forEachColor = [&](const auto& visit) {
+      for (size_t mesh = firstMesh; mesh < this->model_.meshes.size(); ++mesh) {
+        for (Spectrum& color : this->model_.meshes[mesh].colors) {
+          visit(&color, &factors[this->model_.meshes[mesh].image]);
+        }
+      }
+    };
+    forEachColor([](Spectrum* color, Spectrum* most) {
+      for (int band = 0; band < 3; ++band) {
+        (*most)[band] = std::max((*most)[band], (*color)[band]);
+      }
+    });
+    for (auto& [image, factor] : factors) {
+      LitImage& lit = this->model_.images[static_cast<size_t>(image)];
+      const Spectrum room =
+          factor.MaxBand() > 1 ? RoomAbove(lit.file, this->alphaCutoffs_.at(image)) : Spectrum(1.f);
+      for (int band = 0; band < 3; ++band) {
+        factor[band] = std::clamp(factor[band], 1.f, room[band]);
+      }
+      if (factor.MaxBand() > 1) {
+        lit.file = Brightened(lit.file, factor);
+      }
+    }
+    forEachColor([&](Spectrum* color, const Spectrum* factor) {
+      bool isClipped = false;
+      for (int band = 0; band < 3; ++band) {
+        (*color)[band] /= (*factor)[band];
+        isClipped |= (*color)[band] > 1;
+        (*color)[band] = std::min(1.f, (*color)[band]);
+      }
+      this->model_.clippedPoints += isClipped;
+    });
   }
 
   /// v upward.
@@ -142,6 +180,7 @@ class PointLitMeshes {
       image.file = ViewerImageOf(texture.source->bytes);
       image.wrapU = texture.map.wrapU;
       image.wrapV = texture.map.wrapV;
+      this->alphaCutoffs_[known->second] = texture.source->decoding.alphaCutoff;
       this->model_.images.push_back(std::move(image));
     }
     return known->second;
@@ -153,6 +192,7 @@ class PointLitMeshes {
   const ToneMapping& toneMapping_;
   LitModel& model_;
   std::map<std::tuple<const TextureSource*, TextureWrap, TextureWrap>, int> images_;
+  std::map<int, float> alphaCutoffs_;  ///< by row of an image
 };
 
 /// What a viewer shows that multiplies an image by light: sRGB, [0, 1].

@@ -116,6 +116,17 @@ assert np.abs(across).max() < 1.5, np.abs(across).max()
 kept, _ = model_of("kept.glb", *checked, *chosen, "--keep-textures")
 assert len(by_kind(kept)[1]) == 2 and {p[2]["name"] for p in by_kind(kept)[1]} == {"left", "right"}
 
+# Under a dark one light at the points would have to be above 1: the image is brightened, as far as its brightest texel allows.
+dark_image = write_png(temporary("dark.png"), np.where(is_dark, 20, 90)[..., None].repeat(3, 2))
+dark = *scene_of("darkened", "Kd .7 .6 .5\nmap_Kd dark.png\n"), "--white", "10", "--exposure", "1"
+darkened, report = model_of("darkened.glb", *dark, *chosen)
+(page_of_dark,), (left_dark,) = by_kind(darkened)
+assert darkened.image(left_dark[2])[0] != open(dark_image, "rb").read()
+assert report["lit_model"]["clipped_points"] == 0
+across = steps(darkened, page_of_dark, left_dark, within)
+assert np.ptp(encoded(darkened.shown(left_dark, within))) > 50
+assert np.abs(across).max() < 1.5, np.abs(across).max()
+
 insist_on_valid(*written)
 
 # As OBJ: the faces of either, the page, and the colours of points behind their positions.
