@@ -12,14 +12,22 @@ namespace lambert {
 namespace {
 
 /// What moving a texel costs beside a difference at a point of a seam; one around a chart, which
-/// shows within half a texel of its edge alone; and one that is held in the dark.
+/// shows within half a texel of its edge alone; and one that is held at a bound.
 constexpr double kStay = 1e-3, kStayAround = 1e-5, kHeld = 1e3;
-/// In parts of the mean irradiance, what a texel may fall below 0 before it is held there.
-constexpr double kBelow = 1e-4;
+/// In parts of the mean irradiance, by how much a texel may lie beside its bounds before it is held
+/// there.
+constexpr double kBeside = 1e-4;
 /// Solutions at most, each of which holds more texels.
 constexpr int kMostRounds = 10;
+/// What texels may be at most, of the brightest around.
+constexpr float kBrightest = 1.25f;
 
 double Norm(const Spectrum& s) { return std::sqrt(SquaredNorm(s) / 3); }
+
+Spectrum Brighter(Spectrum a, const Spectrum& b) {
+  for (int band = 0; band < 3; ++band) a[band] = std::max(a[band], b[band]);
+  return a;
+}
 
 /// What a side of a seam shows.
 Spectrum LightAt(const SeamPoint& seam, size_t side, const LightMap& map) {
@@ -27,10 +35,23 @@ Spectrum LightAt(const SeamPoint& seam, size_t side, const LightMap& map) {
   return seam.footprints[side].Lookup(map.pages[size_t(seam.pages[side])]);
 }
 
+/// The brightest of the texels about a point of a seam, band by band, on both sides, and what is
+/// fixed.
+Spectrum BrightestAround(const SeamPoint& seam, const LightMap& map) {
+  Spectrum brightest = seam.pages[1] < 0 ? seam.fixed : Spectrum();
+  for (size_t side = 0; side < 2; ++side) {
+    if (seam.pages[side] < 0) continue;
+    for (const size_t texel : seam.footprints[side].texels) {
+      brightest = Brighter(brightest, map.pages[size_t(seam.pages[side])][texel]);
+    }
+  }
+  return brightest;
+}
+
 using Matrix = Eigen::SparseMatrix<double>;
 
-/// The texels of seams by least squares, none of them darker than 0: `differences` of the two
-/// sides, by point of a seam, and how far texels move, weighed by `stays`.
+/// The texels of seams by least squares, within bounds: `differences` of the two sides, by point of
+/// a seam, and how far texels move, weighed by `stays`.
 class Closing {
  public:
   Closing(const Matrix& differences, const Eigen::VectorXd& stays, double mean)
@@ -41,25 +62,31 @@ class Closing {
     solver_.analyzePattern(squares_ + Diagonal(stays));
   }
 
-  /// From the texels as they were, W/m2, and what is fixed beyond the points.
-  Eigen::VectorXd Solve(const Eigen::VectorXd& was, const Eigen::VectorXd& fixed) {
+  /// From the texels as they were, W/m2, the most that each may be, and what is fixed beyond the
+  /// points.
+  Eigen::VectorXd Solve(const Eigen::VectorXd& was, const Eigen::VectorXd& most,
+                        const Eigen::VectorXd& fixed) {
     const Eigen::VectorXd beyond = transposed_ * fixed;
+    const double slack = kBeside * mean_;
     Eigen::VectorXd stays = stays_, goal = stays_.cwiseProduct(was);
     if (!isFree_) solver_.factorize(squares_ + Diagonal(stays));
     isFree_ = true;
     Eigen::VectorXd is = solver_.solve(beyond + goal);
-    // Those that would have to be darker than dark stay so, and others make up for it.
-    for (int round = 1; round < kMostRounds && is.minCoeff() < -kBelow * mean_; ++round) {
+    // Those that would have to lie beside are held at the bound, and others make up for it.
+    for (int round = 1; round < kMostRounds; ++round) {
+      bool areWithin = true;
       for (Eigen::Index i = 0; i < is.size(); ++i) {
-        if (!(is[i] < -kBelow * mean_)) continue;
+        if (is[i] >= -slack && is[i] <= most[i] + slack) continue;
+        areWithin = false;
         stays[i] = kHeld / (mean_ * mean_);
-        goal[i] = 0;
+        goal[i] = stays[i] * (is[i] < 0 ? 0 : most[i]);
       }
+      if (areWithin) break;
       solver_.factorize(squares_ + Diagonal(stays));
       isFree_ = false;
       is = solver_.solve(beyond + goal);
     }
-    return is.cwiseMax(0);
+    return is.cwiseMin(most).cwiseMax(0);
   }
 
  private:
@@ -136,6 +163,7 @@ void CloseSeams(const std::vector<SeamPoint>& seams, double mean,
   std::unordered_map<uint64_t, int> unknownOfTexel;
   std::vector<Spectrum*> texels;
   std::vector<double> costs;
+  std::vector<Spectrum> brightest;
   const size_t pageTexels = size_t(map->pageSize) * size_t(map->pageSize);
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<double> weights(seams.size());
@@ -143,6 +171,7 @@ void CloseSeams(const std::vector<SeamPoint>& seams, double mean,
     if (!seams[s].isClosed) continue;
     const Spectrum light = LightAt(seams[s], 0, *map) + LightAt(seams[s], 1, *map);
     weights[s] = 1 / std::max(mean, Norm(light * 0.5f));
+    const Spectrum around = BrightestAround(seams[s], *map);
     for (size_t side = 0; side < 2; ++side) {
       if (seams[s].pages[side] < 0) continue;
       const Footprint& footprint = seams[s].footprints[side];
@@ -153,7 +182,9 @@ void CloseSeams(const std::vector<SeamPoint>& seams, double mean,
         if (isNew) {
           texels.push_back(&map->pages[page][footprint.texels[i]]);
           costs.push_back(isDrawn[page][footprint.texels[i]] ? kStay : kStayAround);
+          brightest.push_back(around);
         }
+        brightest[size_t(place->second)] = Brighter(brightest[size_t(place->second)], around);
         entries.emplace_back(int(s), place->second,
                              weights[s] * (side == 0 ? footprint.parts[i] : -footprint.parts[i]));
       }
@@ -171,13 +202,16 @@ void CloseSeams(const std::vector<SeamPoint>& seams, double mean,
   }
   Closing closing(differences, stays, mean);
   for (int band = 0; band < 3; ++band) {
-    Eigen::VectorXd was(count), fixed(Eigen::Index(seams.size()));
-    for (Eigen::Index i = 0; i < count; ++i) was[i] = double((*texels[size_t(i)])[band]);
+    Eigen::VectorXd was(count), most(count), fixed(Eigen::Index(seams.size()));
+    for (Eigen::Index i = 0; i < count; ++i) {
+      was[i] = double((*texels[size_t(i)])[band]);
+      most[i] = double(kBrightest * brightest[size_t(i)][band]);
+    }
     for (size_t s = 0; s < seams.size(); ++s) {
       fixed[Eigen::Index(s)] =
           seams[s].pages[1] < 0 ? weights[s] * double(seams[s].fixed[band]) : 0;
     }
-    const Eigen::VectorXd is = closing.Solve(was, fixed);
+    const Eigen::VectorXd is = closing.Solve(was, most, fixed);
     if (!is.allFinite()) continue;
     for (Eigen::Index i = 0; i < count; ++i) (*texels[size_t(i)])[band] = float(is[i]);
   }

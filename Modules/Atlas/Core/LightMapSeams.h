@@ -63,9 +63,10 @@ std::vector<SeamPoint> FindSeams(const TriangleMesh& mesh, const RadiosityAtlas&
 SeamDifference MeasureSeams(const std::vector<SeamPoint>& seams, const LightMap& map, double mean);
 
 /// Moves the texels of seams by as little as may be until lookups on both sides agree, those that
-/// no triangle gives light to before others; none gets darker than 0. All in parts of the light
-/// there or of `mean`, whichever is more, or lamps would have all the say. `isDrawn`, by page and
-/// texel: whether a triangle gives it light.
+/// no triangle gives light to before others; none gets darker than 0, nor brighter than 1.25 times
+/// what is brightest about its places, on either side. All in parts of the light there or of
+/// `mean`, whichever is more, or lamps would have all the say. `isDrawn`, by page and texel:
+/// whether a triangle gives it light.
 void CloseSeams(const std::vector<SeamPoint>& seams, double mean,
                 const std::vector<std::vector<uint8_t>>& isDrawn, LightMap* map);
 

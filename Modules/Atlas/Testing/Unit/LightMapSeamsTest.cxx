@@ -12,13 +12,13 @@ constexpr int kSize = 16;
 constexpr double kMean = 0.5;
 
 /// A page of rows of light; a seam along the upper border of what is drawn below row 4, and the
-/// lower border of what is drawn from row 10 on.
+/// lower border of what is drawn from row 10 on, or `height` up instead of 4.
 struct Seam {
   LightMap map;
   std::vector<std::vector<uint8_t>> isDrawn;
   std::vector<SeamPoint> points;
 
-  explicit Seam(const std::vector<float>& rows) {
+  explicit Seam(const std::vector<float>& rows, float height = 4) {
     map.pageSize = kSize;
     map.pages.emplace_back();
     isDrawn.emplace_back();
@@ -30,10 +30,11 @@ struct Seam {
     }
     ForEachPlaceAlong(12, [&](float part, bool isClosed) {
       const float x = (2 + 12 * part) / kSize;
-      points.push_back({{0, 0},
-                        {Footprint(kSize, {x, 4.f / kSize}), Footprint(kSize, {x, 10.f / kSize})},
-                        {},
-                        isClosed});
+      points.push_back(
+          {{0, 0},
+           {Footprint(kSize, {x, height / kSize}), Footprint(kSize, {x, 10.f / kSize})},
+           {},
+           isClosed});
     });
   }
   SeamDifference Closed() {
@@ -80,6 +81,18 @@ TEST(LightMapSeams, MeetWhereTexelsWouldHaveToBeDarkerThanDark) {
     EXPECT_GE(std::min({texel.r, texel.g, texel.b}), 0);
     EXPECT_TRUE(texel.IsFinite());
   }
+}
+
+// A texel around a chart counts for a tenth here: it alone would have to be nine times as bright.
+TEST(LightMapSeams, NoTexelOutshinesWhatIsAround) {
+  Seam seam(std::vector<float>(kSize, 1), 3.6f);
+  for (SeamPoint& point : seam.points) {
+    point.pages[1] = -1;
+    point.fixed = Spectrum(1.8f);
+  }
+  EXPECT_LT(seam.Closed().largest, 0.01);
+  for (const Spectrum& texel : seam.map.pages[0]) EXPECT_LE(texel.MaxBand(), 1.25f * 1.8f + 1e-6f);
+  EXPECT_GT(seam.Row(3), 1.5f);
 }
 
 TEST(LightMapSeams, BringWhatIsFixedBeyondABorder) {
