@@ -30,14 +30,18 @@ class Random {
   uint64_t state_;
 };
 
-/// Radical inverse of `i` in base 2, shifted (Cranley-Patterson) by `shift`, in [0,1).
-inline float RadicalInverse(uint32_t i, float shift) {
+/// The bits of `i`, the last first.
+constexpr uint32_t ReverseBits(uint32_t i) {
   i = (i << 16) | (i >> 16);
   i = ((i & 0x00ff00ffu) << 8) | ((i & 0xff00ff00u) >> 8);
   i = ((i & 0x0f0f0f0fu) << 4) | ((i & 0xf0f0f0f0u) >> 4);
   i = ((i & 0x33333333u) << 2) | ((i & 0xccccccccu) >> 2);
-  i = ((i & 0x55555555u) << 1) | ((i & 0xaaaaaaaau) >> 1);
-  const float value = float(i >> 8) * 0x1p-24f + shift;
+  return ((i & 0x55555555u) << 1) | ((i & 0xaaaaaaaau) >> 1);
+}
+
+/// Radical inverse of `i` in base 2, shifted (Cranley-Patterson) by `shift`, in [0,1).
+inline float RadicalInverse(uint32_t i, float shift) {
+  const float value = float(ReverseBits(i) >> 8) * 0x1p-24f + shift;
   return value < 1 ? value : value - 1;
 }
 
