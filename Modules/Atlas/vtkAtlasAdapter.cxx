@@ -44,21 +44,16 @@ Error OutOfOrder(size_t face) {
                "; it takes " + kSource + " as it is.");
 }
 
-/// Faces before the first one that its points light: they come last.
-size_t CountLaidFaces(vtkPolyData* input) {
-  const size_t faces = static_cast<size_t>(input->GetNumberOfCells());
-  const std::vector<int32_t> charts =
-      NumbersFromArray<int32_t>(RequireArray(input->GetCellData(), Names::ChartId(), 1, faces));
-  return static_cast<size_t>(std::find(charts.begin(), charts.end(), -1) - charts.begin());
-}
-
-/// Charts of the first `faces` and their pages. Charts are numbered by their first faces.
-void ReadCharts(vtkPolyData* input, size_t faces, RadiosityAtlas* atlas) {
+/// Charts and their pages, and how many faces have them: those that their points light come last.
+/// Charts are numbered by their first faces.
+size_t ReadCharts(vtkPolyData* input, RadiosityAtlas* atlas) {
   const size_t all = static_cast<size_t>(input->GetNumberOfCells());
   const std::vector<int32_t> charts =
       NumbersFromArray<int32_t>(RequireArray(input->GetCellData(), Names::ChartId(), 1, all));
   const std::vector<int32_t> pages =
       NumbersFromArray<int32_t>(RequireArray(input->GetCellData(), Names::PageId(), 1, all));
+  const size_t faces =
+      static_cast<size_t>(std::find(charts.begin(), charts.end(), -1) - charts.begin());
   for (size_t face = faces; face < all; ++face) {
     if (charts[face] != -1) throw OutOfOrder(face);
   }
@@ -95,6 +90,7 @@ void ReadCharts(vtkPolyData* input, size_t faces, RadiosityAtlas* atlas) {
     atlas->set.faces[static_cast<size_t>(next[static_cast<size_t>(charts[face])]++)] =
         static_cast<int32_t>(face);
   }
+  return faces;
 }
 
 /// Where the corners of the faces lie on their pages.
@@ -146,8 +142,7 @@ RadiosityAtlas ReadAtlas(vtkPolyData* input, TriangleMesh* mesh) {
   atlas.padding = static_cast<int>(RequireNumber(fields, Names::AtlasPadding(), 0, kMostPadding));
   atlas.texelSize = RequireNumber(fields, Names::AtlasTexelSize(), 0,
                                   static_cast<double>(std::numeric_limits<float>::max()));
-  mesh->triangles.resize(CountLaidFaces(input));
-  ReadCharts(input, mesh->triangles.size(), &atlas);
+  mesh->triangles.resize(ReadCharts(input, &atlas));
   atlas.set.places.resize(mesh->triangles.size());
   ReadPlaces(input->GetPointData(), *mesh, &atlas);
   return atlas;

@@ -1,11 +1,7 @@
 #include "PngImage.h"
 
+#include "Atlas/Core/DecodedImage.h"
 #include "Atlas/Core/PngBytes.h"
-#include "Common/Core/Error.h"
-
-#include <stb_image.h>
-
-#include <memory>
 
 namespace lambert {
 namespace {
@@ -24,14 +20,7 @@ std::string ViewerImageOf(const std::string& file) {
   if (IsJpeg(file) || BeginsWith(file, "\x89PNG")) {
     return file;
   }
-  int width = 0, height = 0, bands = 0;
-  const std::unique_ptr<stbi_uc, void (*)(void*)> codes(
-      stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()),
-                            static_cast<int>(file.size()), &width, &height, &bands, 4),
-      stbi_image_free);
-  if (!codes) {
-    throw Error("An image of the scene could not be decoded anew; save it as PNG.");
-  }
-  return PngBytes(width, height, 4, codes.get());
+  const DecodedImage image(file);
+  return PngBytes(image.width, image.height, 4, image.codes.get());
 }
 }  // namespace lambert

@@ -1,32 +1,15 @@
 #include "Atlas/Core/BrightenedImage.h"
 
-#include <stb_image.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 
+#include "Atlas/Core/DecodedImage.h"
 #include "Atlas/Core/PngBytes.h"
-#include "Common/Core/Error.h"
 
 namespace lambert {
 namespace {
-
-/// RGBA codes, row after row from above.
-struct DecodedImage {
-  int width = 0, height = 0;
-  std::unique_ptr<uint8_t, void (*)(void*)> codes{nullptr, stbi_image_free};
-
-  explicit DecodedImage(const std::string& file) {
-    int bands = 0;
-    codes.reset(stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()),
-                                      int(file.size()), &width, &height, &bands, 4));
-    if (!codes) throw Error("An image of the scene could not be decoded anew; save it as PNG.");
-  }
-  size_t CodeCount() const { return size_t(width) * size_t(height) * 4; }
-};
 
 float LinearOf(size_t code) { return LinearFromSrgb(float(code) / 255); }
 
