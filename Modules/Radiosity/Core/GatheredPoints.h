@@ -30,8 +30,10 @@ class GatheredPoints {
   };
   struct Light {
     Spectrum irradiance;  ///< W/m2
-    float variance = 0;   ///< of it, sum of the bands, (W/m2)^2
-    bool isNew = false;   ///< not asked before
+    /// Of it, sum of the bands, (W/m2)^2; a third of what rays to emitters leave, which is thought
+    /// larger than it is.
+    float variance = 0;
+    bool isNew = false;  ///< not asked before
   };
 
   /// By reference.
@@ -60,7 +62,8 @@ class GatheredPoints {
     int directRays = 0;
     BounceSum bounces;
     FilteredIrradiance bounced;
-    Spectrum shared;  ///< direct light, all neighbours heard, W/m2
+    Spectrum shared;           ///< direct light, all neighbours heard, W/m2
+    float sharedVariance = 0;  ///< of it, sum of the bands, (W/m2)^2
   };
 
   int32_t FindOrAdd(const Point& point);

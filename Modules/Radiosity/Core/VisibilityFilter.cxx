@@ -15,6 +15,18 @@ constexpr int kMost = 16, kLeast = 8;
 /// What is thought of the variance of a ray before it is known counts as that of one ray.
 constexpr double kPriorVariance = 0.25;
 
+/// The variance of a ray, as some samples together tell.
+double VarianceOfRay(const VisibilitySample* const* samples, int count) {
+  double rays = 0, mean = 0, squares = 0;
+  for (int i = 0; i < count; ++i) {
+    const VisibilitySample& one = *samples[i];
+    rays += double(one.rays);
+    mean += double(one.rays) * double(one.visible.Mean());
+    squares += double(one.rays) * double(one.squares);
+  }
+  return (std::max(0., squares - mean * mean / rays) + kPriorVariance) / (rays + 1);
+}
+
 /// A sample and its neighbours in its plane, in units of the distance of the farthest.
 struct Neighbourhood {
   std::array<PlanePoint, kMost + 1> places;
@@ -45,16 +57,7 @@ struct Neighbourhood {
   }
   bool Tells() const { return count > kLeast; }
   /// The variance of a ray, as all of them together tell.
-  double Variance() const {
-    double rays = 0, mean = 0, squares = 0;
-    for (int i = 0; i < count; ++i) {
-      const VisibilitySample& one = *samples[size_t(i)];
-      rays += double(one.rays);
-      mean += double(one.rays) * double(one.visible.Mean());
-      squares += double(one.rays) * double(one.squares);
-    }
-    return (std::max(0., squares - mean * mean / rays) + kPriorVariance) / (rays + 1);
-  }
+  double Variance() const { return VarianceOfRay(samples.data(), count); }
 };
 
 }  // namespace
@@ -75,13 +78,19 @@ float StandsApart(const std::vector<VisibilitySample>& samples,
   return StandsApart(near.places.data(), squares.data(), rays.data(), near.count, near.Variance());
 }
 
-Spectrum FilterVisibility(const std::vector<VisibilitySample>& samples,
-                          const std::vector<IrradianceSample>& places,
-                          const SampleNeighbours& neighbours, int32_t sample) {
+FilteredVisibility FilterVisibility(const std::vector<VisibilitySample>& samples,
+                                    const std::vector<IrradianceSample>& places,
+                                    const SampleNeighbours& neighbours, int32_t sample) {
+  // On its own it scatters as its rays do, or as those around it where that is more: a few that
+  // agree may all be lucky.
   const VisibilitySample& own = samples[size_t(sample)];
-  if (own.apart >= 1) return own.visible;
+  if (!(own.rays > 0)) return {own.visible, 0};
   Neighbourhood near(samples, places, neighbours, sample);
-  if (!near.Tells()) return own.visible;
+  const VisibilitySample* const itself = &own;
+  double ofRay = VarianceOfRay(&itself, 1);
+  if (near.Tells()) ofRay = std::max(ofRay, near.Variance());
+  const FilteredVisibility alone{own.visible, float(ofRay / double(own.rays))};
+  if (own.apart >= 1 || !near.Tells()) return alone;
 
   // The plane through what does not stand apart.
   double weights = 0;
@@ -89,14 +98,19 @@ Spectrum FilterVisibility(const std::vector<VisibilitySample>& samples,
     near.places[size_t(i)].weight *= 1 - near.samples[size_t(i)]->apart;
     weights += double(near.places[size_t(i)].weight);
   }
-  if (!(weights > 0)) return own.visible;
+  if (!(weights > 0)) return alone;
   const PlaneFit fit(near.places.data(), near.count);
-  Spectrum fitted;
+  const float ofNear = float(near.Variance());
+  FilteredVisibility fitted;
   for (int i = 0; i < near.count; ++i) {
-    fitted += near.samples[size_t(i)]->visible * fit.WeightAtMiddle(near.places[size_t(i)]);
+    const VisibilitySample& one = *near.samples[size_t(i)];
+    const float weight = fit.WeightAtMiddle(near.places[size_t(i)]);
+    fitted.visible += one.visible * weight;
+    fitted.variance += ofNear * weight * weight / one.rays;
   }
-  for (int band = 0; band < 3; ++band) fitted[band] = std::max(0.f, fitted[band]);
-  return fitted + (own.visible - fitted) * own.apart;
+  for (int band = 0; band < 3; ++band) fitted.visible[band] = std::max(0.f, fitted.visible[band]);
+  return {fitted.visible + (alone.visible - fitted.visible) * own.apart,
+          fitted.variance + (alone.variance - fitted.variance) * own.apart};
 }
 
 }  // namespace lambert

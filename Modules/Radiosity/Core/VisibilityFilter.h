@@ -26,11 +26,16 @@ float StandsApart(const std::vector<VisibilitySample>& samples,
                   const std::vector<IrradianceSample>& places, const SampleNeighbours& neighbours,
                   int32_t sample);
 
+struct FilteredVisibility {
+  Spectrum visible;    ///< part of the unoccluded irradiance that arrives
+  float variance = 0;  ///< of its mean over the bands, by how much rays scatter
+};
+
 /// The visible part at a sample: in the part that it stands apart its own, else that of the plane
 /// fitted to it and its neighbours. What stands apart tells of itself alone, or what it saw would
 /// count twice: the unlucky ones of many that see nearly all of a lamp would darken them, too.
-Spectrum FilterVisibility(const std::vector<VisibilitySample>& samples,
-                          const std::vector<IrradianceSample>& places,
-                          const SampleNeighbours& neighbours, int32_t sample);
+FilteredVisibility FilterVisibility(const std::vector<VisibilitySample>& samples,
+                                    const std::vector<IrradianceSample>& places,
+                                    const SampleNeighbours& neighbours, int32_t sample);
 
 }  // namespace lambert
