@@ -30,8 +30,8 @@ class GatheredPoints {
   };
   struct Light {
     Spectrum irradiance;  ///< W/m2
-    /// Of it, sum of the bands, (W/m2)^2; a third of what rays to emitters leave, which is thought
-    /// larger than it is.
+    /// Of it, sum of the bands, (W/m2)^2, as differences between points are held against it: with a
+    /// third of what rays to emitters leave.
     float variance = 0;
     bool isNew = false;  ///< not asked before
   };
