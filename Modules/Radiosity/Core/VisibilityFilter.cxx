@@ -83,14 +83,13 @@ FilteredVisibility FilterVisibility(const std::vector<VisibilitySample>& samples
                                     const SampleNeighbours& neighbours, int32_t sample) {
   // On its own it scatters as its rays do, or as those around it where that is more: a few that
   // agree may all be lucky.
-  const VisibilitySample& own = samples[size_t(sample)];
-  if (!(own.rays > 0)) return {own.visible, 0};
+  const VisibilitySample* const own = &samples[size_t(sample)];
+  if (!(own->rays > 0)) return {own->visible, 0};
   Neighbourhood near(samples, places, neighbours, sample);
-  const VisibilitySample* const itself = &own;
-  double ofRay = VarianceOfRay(&itself, 1);
-  if (near.Tells()) ofRay = std::max(ofRay, near.Variance());
-  const FilteredVisibility alone{own.visible, float(ofRay / double(own.rays))};
-  if (own.apart >= 1 || !near.Tells()) return alone;
+  const double ofNear = near.Tells() ? near.Variance() : 0;
+  const double ofRay = std::max(VarianceOfRay(&own, 1), ofNear);
+  const FilteredVisibility alone{own->visible, float(ofRay / double(own->rays))};
+  if (own->apart >= 1 || !near.Tells()) return alone;
 
   // The plane through what does not stand apart.
   double weights = 0;
@@ -100,17 +99,16 @@ FilteredVisibility FilterVisibility(const std::vector<VisibilitySample>& samples
   }
   if (!(weights > 0)) return alone;
   const PlaneFit fit(near.places.data(), near.count);
-  const float ofNear = float(near.Variance());
   FilteredVisibility fitted;
   for (int i = 0; i < near.count; ++i) {
     const VisibilitySample& one = *near.samples[size_t(i)];
     const float weight = fit.WeightAtMiddle(near.places[size_t(i)]);
     fitted.visible += one.visible * weight;
-    fitted.variance += ofNear * weight * weight / one.rays;
+    fitted.variance += float(ofNear) * weight * weight / one.rays;
   }
   for (int band = 0; band < 3; ++band) fitted.visible[band] = std::max(0.f, fitted.visible[band]);
-  return {fitted.visible + (alone.visible - fitted.visible) * own.apart,
-          fitted.variance + (alone.variance - fitted.variance) * own.apart};
+  return {fitted.visible + (alone.visible - fitted.visible) * own->apart,
+          fitted.variance + (alone.variance - fitted.variance) * own->apart};
 }
 
 }  // namespace lambert

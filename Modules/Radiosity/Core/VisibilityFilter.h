@@ -26,9 +26,10 @@ float StandsApart(const std::vector<VisibilitySample>& samples,
                   const std::vector<IrradianceSample>& places, const SampleNeighbours& neighbours,
                   int32_t sample);
 
+/// What is visible from a place, all neighbours heard, and how far that may be off.
 struct FilteredVisibility {
   Spectrum visible;    ///< part of the unoccluded irradiance that arrives
-  float variance = 0;  ///< of its mean over the bands, by how much rays scatter
+  float variance = 0;  ///< of its mean over the bands, as its rays scatter
 };
 
 /// The visible part at a sample: in the part that it stands apart its own, else that of the plane
