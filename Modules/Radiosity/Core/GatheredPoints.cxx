@@ -28,7 +28,7 @@ constexpr int kMostDirectRays = 64;
 /// fewer find in narrow places may all be chance.
 constexpr int kLeastShadowNeighbours = 8, kShadowNeighbours = 12;
 /// Differences of light are held against the scatter of rays to emitters in this part: counted in
-/// full, edges of shadows are taken for scatter (a kitchen's error grows by a twelfth).
+/// full, edges of shadows are taken for scatter.
 constexpr float kDirectScatter = 1.f / 3;
 /// What the bands together scatter by, up to so many times what their mean does.
 constexpr float kMostOfBands = 9;
