@@ -37,6 +37,8 @@ constexpr int kMostBounces = 2;
 constexpr double kLeastRaysOfLeaf = 0.5, kMostRaysOfLeaf = 64;
 /// Rays to the emitting faces from a sample of a leaf.
 constexpr int kDirectRaysAtLeaves = 12;
+/// Tells the rays that look around from those that gather.
+constexpr uint64_t kSurvey = 0x737572766579;
 /// A facet of a leaf receives up to this many times the mean of its samples.
 constexpr float kMostOfMean = 4;
 /// Light of which links knew less than this part comes from directions that they do not know.
@@ -164,8 +166,10 @@ Spectrum FinalGather::Brightest() const {
   return brightest;
 }
 
-static GatherPoint PlaceOf(const SurfaceSample& sample) {
-  return {sample.position, sample.normal, sample.normal};
+// Where light is gathered for a sample: at a place that others see.
+GatherPoint FinalGather::PlaceOf(int32_t leaf, size_t sample) const {
+  const Vec3f& normal = hierarchy_[leaf].samples[sample].normal;
+  return {survey_.places[size_t(leaf)][sample], normal, normal};
 }
 
 // Straight from the sources leaves receive the same in every round. Light of which they have much
@@ -177,11 +181,10 @@ void FinalGather::LightLeaves(const LeafRows& rows, uint64_t seed, int64_t* cast
     if (hasGathered_[size_t(leaf)]) return;
     const uint64_t own = HashBits(seed, uint64_t(leaf));
     for (size_t k = 0; k < kSamplesPerElement; ++k) {
-      sampleDirect_[size_t(leaf)][k] =
-          direct_
-              .Sample(PlaceOf(hierarchy_[leaf].samples[k]), kDirectRaysAtLeaves, HashBits(own, k),
-                      &castBy[size_t(row)])
-              .irradiance;
+      sampleDirect_[size_t(leaf)][k] = direct_
+                                           .Sample(this->PlaceOf(leaf, k), kDirectRaysAtLeaves,
+                                                   HashBits(own, k), &castBy[size_t(row)])
+                                           .irradiance;
     }
   });
   double area = 0, reflected = 0;
@@ -206,7 +209,7 @@ void FinalGather::CastFromLeaf(size_t row, uint64_t seed, LeafRows* rows, int64_
   const int32_t leaf = rows->leaves[row];
   GatherPoint points[kSamplesPerElement];
   for (size_t k = 0; k < kSamplesPerElement; ++k) {
-    points[k] = PlaceOf(hierarchy_[leaf].samples[k]);
+    points[k] = this->PlaceOf(leaf, k);
     rows->fromSources[row][k] = sampleDirect_[size_t(leaf)][k];
   }
   const int64_t begin = rows->begin[row];
@@ -245,6 +248,12 @@ LeafRows FinalGather::CastFromLeaves(int rays, uint64_t seed, int64_t* cast) {
   rows.rays.resize(size_t(rows.begin.back()));
   rows.fromSources.resize(rows.leaves.size());
 
+  if (survey_.places.empty()) {
+    const LeafFinder leafAt = [this](int64_t face, Side side, const Vec3f& position) {
+      return this->LeafAt(face, side, position);
+    };
+    survey_ = SurveyLeaves(hierarchy_, rayScene_, rows, leafAt, HashBits(seed, kSurvey), cast);
+  }
   this->LightLeaves(rows, seed, cast);
   std::vector<int64_t> castBy(rows.leaves.size(), 0);
   ParallelForEach(int64_t(rows.leaves.size()), 16, [&](int64_t row) {
@@ -329,7 +338,7 @@ int FinalGather::TellingSample(int32_t leaf, const Vec3f& place, const Vec3f& no
     if (nearest < 0 || !asks) return nearest < 0 ? darkest : nearest;
 
     // Whether it lies behind a wall.
-    const Vec3f& position = element.samples[size_t(nearest)].position;
+    const Vec3f& position = survey_.places[size_t(leaf)][size_t(nearest)];
     ++*rays;
     if (!rayScene_.Occluded(place + above, position + above)) return nearest;
     isHidden[size_t(nearest)] = true;

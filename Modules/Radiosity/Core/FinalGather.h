@@ -12,6 +12,7 @@
 #include "Radiosity/Core/DirectLight.h"
 #include "Radiosity/Core/ElementHierarchy.h"
 #include "Radiosity/Core/LeafBalance.h"
+#include "Radiosity/Core/LeafSurvey.h"
 #include "Radiosity/Core/LinkRefinement.h"
 #include "Visibility/Core/RayScene.h"
 
@@ -73,6 +74,8 @@ class FinalGather {
   /// `rays` over the hemisphere of a leaf of mean area, in proportion to area. `share` of what they
   /// have then is new, (0, 1]. Adds the rays cast to `cast`.
   void GatherAtLeaves(int rays, double share, uint64_t seed, int64_t* cast);
+  /// Places that something lies close to; none before GatherAtLeaves.
+  const std::vector<ClosePlace>& PlacesCloseToOthers() const { return survey_.close; }
 
  private:
   /// What a ray meets, emitters left out: radiosity from sources, and the part that a leaf sends of
@@ -91,6 +94,7 @@ class FinalGather {
                : seen.fromSources + seen.part * seen.turned * received_[size_t(seen.place)];
   }
   int32_t LeafAt(int64_t face, Side side, const Vec3f& position) const;
+  GatherPoint PlaceOf(int32_t leaf, size_t sample) const;
   LeafRows CastFromLeaves(int rays, uint64_t seed, int64_t* cast);
   void LightLeaves(const LeafRows& rows, uint64_t seed, int64_t* cast);
   void CastFromLeaf(size_t row, uint64_t seed, LeafRows* rows, int64_t* cast);
@@ -119,6 +123,7 @@ class FinalGather {
   std::array<std::vector<int32_t>, 2>
       elementOfFace_;  ///< by side: the element that holds the face,
                        ///< a leaf or a triangle; -1 where none does
+  LeafSurvey survey_;  ///< as the leaves were when they first gathered
   /// Irradiance by element and place, W/m2: a part of a leaf that is hidden is dark, and what sees
   /// the leaf sees the other.
   std::vector<Spectrum> received_;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "Common/Core/Barycentric.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
 #include "Radiosity/Core/VertexFitting.h"
@@ -137,10 +138,11 @@ uint64_t GatheredMesh::Key(int64_t triangle) const {
 }
 
 // A triangle may hold a light or a shadow that none of its corners lies in. Of all that are alike
-// in size and in what their corners tell some are asked in their middle; all are where that pays
-// most, until those that are left hold too little to count.
+// in size, in what their corners tell, and in whether something lies close to them, some are asked
+// in their middle, or in that place; all are where that pays most, until those that are left hold
+// too little to count.
 void GatheredMesh::ProbeMiddles(double wanted, int64_t* rays) {
-  // Triangles that were not asked before, by an octave of area and of error.
+  // Triangles that were not asked before, by an octave of area and of error, and by what is close.
   const LightScale scale = this->MeasureLight();
   if (!(scale.mean > 0)) return;
   struct Alike {
@@ -148,14 +150,16 @@ void GatheredMesh::ProbeMiddles(double wanted, int64_t* rays) {
     size_t asked = 0;
     double error = 0;  ///< squared, of each, by those that were asked
   };
-  std::map<std::array<int, 2>, Alike> classes;
+  std::map<std::array<int, 3>, Alike> classes;
+  closePlaceOf_ = closePlaces_.InTriangles(mesh_, hierarchy_->Leaves());
   const std::vector<double> errors = this->Errors(scale);
   for (int64_t t = 0; t < int64_t(mesh_.Triangles().size()); ++t) {
     const double area = this->Area(t);
     if (!this->Receives(t) || !(area > 0) || middleOfTriangle_[size_t(t)]) continue;
     const double squared = errors[size_t(t)] / (area * wanted * wanted);
     const int error = int(std::floor(std::log2(std::max(squared, kLeastError * kLeastError)) / 2));
-    classes[{std::ilogb(area), error}].triangles.push_back(t);
+    const int isClose = closePlaceOf_[size_t(t)] ? 1 : 0;
+    classes[{std::ilogb(area), error, isClose}].triangles.push_back(t);
   }
 
   // A few of each.
@@ -205,15 +209,27 @@ void GatheredMesh::RecallMiddles() {
   });
 }
 
+// Of its corners.
+Vec3f GatheredMesh::WeightsOfMiddle(int64_t triangle) const {
+  const Vec3f middle{1.f / 3, 1.f / 3, 1.f / 3};
+  const ClosePlace* const close = closePlaceOf_[size_t(triangle)];
+  if (!close) return middle;
+  const auto& p = mesh_.PointsOfTriangles()[size_t(triangle)];
+  const auto at = [&](size_t corner) { return mesh_.Points()[size_t(p[corner])].position; };
+  return BarycentricWeights(at(0), at(1), at(2), close->position).value_or(middle);
+}
+
 // How far the light in the middle of triangles is from what their corners interpolate.
 void GatheredMesh::Probe(const std::vector<int64_t>& triangles, int64_t* rays) {
   std::vector<GatheredPoints::Point> places;
   for (const int64_t t : triangles) {
     GatherPoint place;
-    for (const int32_t p : mesh_.PointsOfTriangles()[size_t(t)]) {
+    const Vec3f weights = this->WeightsOfMiddle(t);
+    for (size_t c = 0; c < 3; ++c) {
+      const int32_t p = mesh_.PointsOfTriangles()[size_t(t)][c];
       const RefinedMesh::Point& point = mesh_.Points()[size_t(p)];
-      place.position += point.position / 3.f;
-      place.normal += point.normal;
+      place.position += point.position * weights[int(c)];
+      place.normal += point.normal * weights[int(c)];
     }
     const LeafTriangle& leaf = mesh_.Triangles()[size_t(t)];
     const Vec3f front = hierarchy_->GetScene().mesh.FrontNormal(leaf.face);
@@ -224,16 +240,21 @@ void GatheredMesh::Probe(const std::vector<int64_t>& triangles, int64_t* rays) {
   }
   const std::vector<GatheredPoints::Light> gathered = gathered_.At(places, rays);
   for (size_t i = 0; i < triangles.size(); ++i) {
+    const int64_t t = triangles[i];
+    const Vec3f weights = this->WeightsOfMiddle(t);
     Spectrum expected;
     double noise = double(gathered[i].variance);
-    for (const int32_t p : mesh_.PointsOfTriangles()[size_t(triangles[i])]) {
-      expected += irradiance_[size_t(p)] / 3.f;
-      noise += double(variance_[size_t(p)]) / 9;
+    for (size_t c = 0; c < 3; ++c) {
+      const size_t p = size_t(mesh_.PointsOfTriangles()[size_t(t)][c]);
+      const float weight = weights[int(c)];
+      expected += irradiance_[p] * weight;
+      noise += double(weight * weight) * double(variance_[p]);
     }
     const double deviation = SquaredNorm(gathered[i].irradiance - expected);
-    Middle& middle = probed_[this->Key(triangles[i])];
-    middleOfTriangle_[size_t(triangles[i])] = &middle;
-    middle = {gathered[i].irradiance, std::max(0.0, deviation - kScatter * noise)};
+    Middle& middle = probed_[this->Key(t)];
+    middleOfTriangle_[size_t(t)] = &middle;
+    middle = {places[i].at.position, gathered[i].irradiance,
+              std::max(0.0, deviation - kScatter * noise), !closePlaceOf_[size_t(t)]};
   }
 }
 
@@ -243,7 +264,8 @@ RadiositySolution GatheredMesh::Deliver() const {
     FittedTriangle& triangle = triangles[size_t(t)];
     triangle.points = mesh_.PointsOfTriangles()[size_t(t)];
     triangle.area = float(this->Area(t));
-    if (const Middle* const middle = middleOfTriangle_[size_t(t)]) {
+    const Middle* const middle = middleOfTriangle_[size_t(t)];
+    if (middle && middle->isCentred) {
       triangle.middle = middle->irradiance;
     } else {
       for (const int32_t p : triangle.points) triangle.middle += irradiance_[size_t(p)] / 3.f;
@@ -291,16 +313,12 @@ void GatheredMesh::LearnNonlinearity() {
       Spectrum expected;
       for (size_t k = 0; k < before.corners.size(); ++k) {
         const auto& c = before.corners[k];
-        const Vec3f normal = Cross(c[1] - c[0], c[2] - c[0]);
-        const float square = LengthSquared(normal);
-        if (!(square > 0)) continue;
-        const float w1 = Dot(Cross(x - c[0], c[2] - c[0]), normal) / square;
-        const float w2 = Dot(Cross(c[1] - c[0], x - c[0]), normal) / square;
-        const float least = std::min({1 - w1 - w2, w1, w2});
+        const auto w = BarycentricWeights(c[0], c[1], c[2], x);
+        const float least = w ? std::min({w->x, w->y, w->z}) : most;
         if (least <= most) continue;
         most = least;
         const auto& e = before.light[k];
-        expected = e[0] * (1 - w1 - w2) + e[1] * w1 + e[2] * w2;
+        expected = e[0] * w->x + e[1] * w->y + e[2] * w->z;
       }
       deviation[index] = std::max(deviation[index], SquaredNorm(irradiance_[size_t(p)] - expected));
     }

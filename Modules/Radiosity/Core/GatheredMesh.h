@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "Common/Core/Progress.h"
+#include "Radiosity/Core/ClosePlaces.h"
 #include "Radiosity/Core/ContactLines.h"
 #include "Radiosity/Core/ElementHierarchy.h"
 #include "Radiosity/Core/GatheredPoints.h"
@@ -30,6 +31,7 @@ class GatheredMesh {
         receives_(ReceivingFaces(hierarchy->GetScene().mesh)),
         mesh_(hierarchy, litSides, RefinedMesh::Use::Gather),
         firstTriangles_(int64_t(mesh_.Triangles().size())),
+        closePlaces_(gather.PlacesCloseToOthers()),
         middleOfTriangle_(mesh_.Triangles().size(), nullptr) {}
 
   /// Light at the points that have none yet.
@@ -40,8 +42,8 @@ class GatheredMesh {
   }
   /// How far interpolation was off where triangles were cut.
   void LearnNonlinearity();
-  /// Asks for light in the middle of triangles that may hold more error than their corners tell;
-  /// `wanted` is the relative RMS error that is.
+  /// Asks for light in the middle of triangles that may hold more error than their corners tell, or
+  /// where something lies close to them; `wanted` is the relative RMS error that is.
   void ProbeMiddles(double wanted, int64_t* rays);
   /// Cuts the triangles that hold the most of the error, along the feet of what stands on them or
   /// the edges of shadows where they find one, until interpolation leaves about `wanted`; false
@@ -87,16 +89,20 @@ class GatheredMesh {
   struct LightScale {
     double area = 0, mean = 0, meanSquare = 0;
   };
-  /// What is found in the middle of a triangle: its irradiance, W/m2, and the squared deviation of
-  /// that from what the corners interpolate, beyond scatter.
+  /// What is found in the middle of a triangle, or in the place in it that something lies close to:
+  /// its irradiance, W/m2, and the squared deviation of that from what the corners interpolate,
+  /// beyond scatter.
   struct Middle {
+    Vec3f position;
     Spectrum irradiance;
     double deviation = 0;
+    bool isCentred = true;
   };
   LightScale MeasureLight() const;
   double MeanLight(int64_t triangle) const;
   double DarkestLight(int64_t triangle) const;
   void RecallMiddles();
+  Vec3f WeightsOfMiddle(int64_t triangle) const;
   void Probe(const std::vector<int64_t>& triangles, int64_t* rays);
   double Difference(int64_t triangle) const;
   double Error(int64_t triangle, const LightScale& scale) const;
@@ -129,6 +135,8 @@ class GatheredMesh {
   const std::vector<bool> receives_;  ///< by face: its light counts in the error
   RefinedMesh mesh_;
   const int64_t firstTriangles_;
+  ClosePlaces closePlaces_;
+  std::vector<const ClosePlace*> closePlaceOf_;  ///< by triangle, while middles are asked
   std::vector<Spectrum> irradiance_;             ///< per point
   std::vector<float> variance_;                  ///< per point, of the irradiance
   std::unordered_map<uint64_t, Middle> probed_;  ///< by the key of the triangle

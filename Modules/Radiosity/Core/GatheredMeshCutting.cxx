@@ -233,10 +233,7 @@ std::vector<KnownLight> GatheredMesh::KnownIn(const std::vector<int64_t>& triang
     const auto& corners = mesh_.PointsOfTriangles()[size_t(t)];
     points.insert(points.end(), corners.begin(), corners.end());
     const Middle* const middle = middleOfTriangle_[size_t(t)];
-    if (!middle) continue;
-    KnownLight place{{}, middle->irradiance};
-    for (const int32_t p : corners) place.position += mesh_.Points()[size_t(p)].position / 3.f;
-    places.push_back(place);
+    if (middle) places.push_back({middle->position, middle->irradiance});
   }
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());

@@ -1,0 +1,34 @@
+// What rays between leaves tell before any light is gathered: where leaves are seen, and which
+// places lie close to something.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "Radiosity/Core/ClosePlaces.h"
+#include "Radiosity/Core/ElementHierarchy.h"
+#include "Radiosity/Core/LeafBalance.h"
+#include "Visibility/Core/RayScene.h"
+
+namespace lambert {
+
+struct LeafSurvey {
+  /// By element, a place for each of its samples, m: one of those nearest to it at which rays from
+  /// afar met the leaf, drawn among them; the sample itself where none did, and on what is not
+  /// flat.
+  std::vector<std::array<Vec3f, kSamplesPerElement>> places;
+  std::vector<ClosePlace> close;  ///< at most one a sample, of what lies closest to it
+};
+
+/// The leaf that holds a place on a side of a face; -1 where none does.
+using LeafFinder = std::function<int32_t(int64_t face, Side side, const Vec3f& position)>;
+
+/// Casts a part of the rays that `rows` has room for. Adds those cast to `cast`. The same for any
+/// number of threads.
+LeafSurvey SurveyLeaves(const ElementHierarchy& hierarchy, const RayScene& rayScene,
+                        const LeafRows& rows, const LeafFinder& leafAt, uint64_t seed,
+                        int64_t* cast);
+
+}  // namespace lambert
