@@ -1,6 +1,7 @@
 #include "Radiosity/Core/LeafSurvey.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "Common/Core/Parallel.h"
@@ -41,54 +42,76 @@ int32_t NearestSample(const Element& leaf, const Vec3f& place) {
   return nearest;
 }
 
-}  // namespace
+/// What a ray from a leaf's sample meets: a place close to the leaf, or one that it sees from afar.
+class Surveyor {
+ public:
+  Surveyor(const ElementHierarchy& hierarchy, const RayScene& rayScene, const LeafFinder& leafAt)
+      : hierarchy_(hierarchy), rayScene_(rayScene), leafAt_(leafAt) {}
 
-LeafSurvey SurveyLeaves(const ElementHierarchy& hierarchy, const RayScene& rayScene,
-                        const LeafRows& rows, const LeafFinder& leafAt, uint64_t seed,
-                        int64_t* cast) {
-  // Around every sample.
-  std::vector<LookAround> found(rows.leaves.size());
-  ParallelForEach(int64_t(rows.leaves.size()), 16, [&](int64_t row) {
-    const int32_t from = rows.leaves[size_t(row)];
-    const Element& own = hierarchy[from];
-    LookAround& look = found[size_t(row)];
-    const int64_t room = rows.begin[size_t(row) + 1] - rows.begin[size_t(row)];
-    const int64_t count = std::max<int64_t>(1, room / kSamplesPerElement / kPart);
-    Random random(HashBits(seed, uint64_t(from)));
+  /// `count` rays from each sample.
+  LookAround From(int32_t leaf, int64_t count, uint64_t seed) const {
+    LookAround look;
+    Random random(HashBits(seed, uint64_t(leaf)));
     for (size_t k = 0; k < kSamplesPerElement; ++k) {
-      const SurfaceSample& sample = own.samples[k];
+      const SurfaceSample& sample = hierarchy_[leaf].samples[k];
       Vec3f u, v;
       CoordinateSystem(sample.normal, &u, &v);
       for (int64_t i = 0; i < count; ++i) {
         const float x = random.Uniform();
         const Vec3f d = CosineHemisphere(x, random.Uniform());
-        const Vec3f direction = u * d.x + v * d.y + sample.normal * d.z;
-        ++look.rays;
-        const RayHit hit = rayScene.Closest(RayStart{sample.position, sample.normal}, direction);
-        if (hit.face < 0) continue;
-        const float cosine = std::abs(Dot(hit.front, direction));
-        const Side side = Dot(hit.front, direction) < 0 ? kFront : kBack;
-        const Vec3f place = sample.position + direction * hit.distance;
-        const int32_t leaf = leafAt(hit.face, side, place);
-        if (leaf < 0 || leaf == from) continue;
-
-        // What is met lies close to this leaf, or sees it from afar.
-        if (hit.distance < kClose * own.radius) {
-          const float radii = hit.distance / own.radius;
-          const float cover = cosine / (1 + radii * radii);
-          if (cover > look.close[k].cover) {
-            look.close[k] = {int32_t(hit.face), side, place, cover};
-          }
-        }
-        const Element& other = hierarchy[leaf];
-        if (other.IsPolygon() && hit.distance >= kAfar * other.radius) {
-          look.seen.push_back({leaf, NearestSample(other, place), place});
-        }
+        this->Follow(leaf, k, u * d.x + v * d.y + sample.normal * d.z, &look);
       }
     }
+    return look;
+  }
+
+ private:
+  void Follow(int32_t from, size_t k, const Vec3f& direction, LookAround* look) const {
+    // The leaf that it meets.
+    const SurfaceSample& sample = hierarchy_[from].samples[k];
+    ++look->rays;
+    const RayHit hit = rayScene_.Closest(RayStart{sample.position, sample.normal}, direction);
+    if (hit.face < 0) return;
+    const Side side = Dot(hit.front, direction) < 0 ? kFront : kBack;
+    const Vec3f place = sample.position + direction * hit.distance;
+    const int32_t leaf = leafAt_(hit.face, side, place);
+    if (leaf < 0 || leaf == from) return;
+
+    // Close to where the ray came from.
+    const float radius = hierarchy_[from].radius;
+    if (hit.distance < kClose * radius) {
+      const float radii = hit.distance / radius;
+      const float cover = std::abs(Dot(hit.front, direction)) / (1 + radii * radii);
+      if (cover > look->close[k].cover) look->close[k] = {int32_t(hit.face), side, place, cover};
+    }
+
+    // Seen from afar.
+    const Element& seen = hierarchy_[leaf];
+    if (seen.IsPolygon() && hit.distance >= kAfar * seen.radius) {
+      look->seen.push_back({leaf, NearestSample(seen, place), place});
+    }
+  }
+
+  const ElementHierarchy& hierarchy_;
+  const RayScene& rayScene_;
+  const LeafFinder& leafAt_;
+};
+
+}  // namespace
+
+LeafSurvey SurveyLeaves(const ElementHierarchy& hierarchy, const RayScene& rayScene,
+                        const LeafRows& rows, const LeafFinder& leafAt, uint64_t seed,
+                        int64_t* cast) {
+  // Around every leaf.
+  const Surveyor surveyor(hierarchy, rayScene, leafAt);
+  std::vector<LookAround> looks(rows.leaves.size());
+  ParallelForEach(int64_t(looks.size()), 16, [&](int64_t row) {
+    const int64_t room = rows.begin[size_t(row) + 1] - rows.begin[size_t(row)];
+    const int64_t count = std::max<int64_t>(1, room / kSamplesPerElement / kPart);
+    looks[size_t(row)] = surveyor.From(rows.leaves[size_t(row)], count, seed);
   });
 
-  // One of the places by each sample, drawn among them.
+  // What nothing sees keeps its samples; of the places seen by one, each is drawn alike.
   LeafSurvey survey;
   survey.places.resize(size_t(hierarchy.Size()));
   for (int32_t leaf = 0; leaf < hierarchy.Size(); ++leaf) {
@@ -97,12 +120,12 @@ LeafSurvey SurveyLeaves(const ElementHierarchy& hierarchy, const RayScene& raySc
     }
   }
   std::vector<std::array<int32_t, kSamplesPerElement>> seenBefore(survey.places.size());
-  for (const LookAround& look : found) {
+  for (const LookAround& look : looks) {
     *cast += look.rays;
     for (const SeenPlace& seen : look.seen) {
-      const uint64_t drawn = uint64_t(seen.leaf) * kSamplesPerElement + uint64_t(seen.sample);
+      const uint64_t key = uint64_t(seen.leaf) * kSamplesPerElement + uint64_t(seen.sample);
       const int32_t count = ++seenBefore[size_t(seen.leaf)][size_t(seen.sample)];
-      Random random(HashBits(HashBits(seed, drawn), uint64_t(count)));
+      Random random(HashBits(HashBits(seed, key), uint64_t(count)));
       if (random.Uniform() * float(count) >= 1) continue;
       survey.places[size_t(seen.leaf)][size_t(seen.sample)] = seen.position;
     }
