@@ -9,6 +9,7 @@
 #include "Atlas/Core/ChartPacking.h"
 #include "Atlas/Core/TexelRaster.h"
 #include "Clustering/Core/ClusterFrame.h"
+#include "Common/Core/Barycentric.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Timer.h"
@@ -448,12 +449,8 @@ std::vector<Vec2f> SplitAtCharts(const RadiosityAtlas& atlas, TriangleMesh* mesh
 
 std::array<float, 3> WeightsInFace(const TriangleMesh& mesh, int64_t face, const Vec3f& place) {
   const Vec3d p(place), a(mesh.Corner(face, 0)), b(mesh.Corner(face, 1)), c(mesh.Corner(face, 2));
-  const Vec3d normal = Cross(b - a, c - a);
-  const double square = Dot(normal, normal);
-  if (!(square > 0)) return {1, 0, 0};
-  const double atB = Dot(Cross(p - a, c - a), normal) / square;
-  const double atC = Dot(Cross(b - a, p - a), normal) / square;
-  return {float(1 - atB - atC), float(atB), float(atC)};
+  const Vec3d weights = BarycentricWeights(a, b, c, p).value_or(Vec3d{1, 0, 0});
+  return {float(weights.x), float(weights.y), float(weights.z)};
 }
 
 Vec2f PlaceOnPage(const TriangleMesh& mesh, const RadiosityAtlas& atlas, int64_t face,

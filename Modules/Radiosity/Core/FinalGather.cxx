@@ -181,10 +181,9 @@ void FinalGather::LightLeaves(const LeafRows& rows, uint64_t seed, int64_t* cast
     if (hasGathered_[size_t(leaf)]) return;
     const uint64_t own = HashBits(seed, uint64_t(leaf));
     for (size_t k = 0; k < kSamplesPerElement; ++k) {
-      sampleDirect_[size_t(leaf)][k] = direct_
-                                           .Sample(this->PlaceOf(leaf, k), kDirectRaysAtLeaves,
-                                                   HashBits(own, k), &castBy[size_t(row)])
-                                           .irradiance;
+      const DirectSample direct = direct_.Sample(this->PlaceOf(leaf, k), kDirectRaysAtLeaves,
+                                                 HashBits(own, k), &castBy[size_t(row)]);
+      sampleDirect_[size_t(leaf)][k] = direct.irradiance;
     }
   });
   double area = 0, reflected = 0;
