@@ -19,7 +19,6 @@ constexpr float kLargeWithin = 0.35f;
 /// nearer than this many of its sizes; farther away all places on it give alike. Places by area are
 /// cheap, and give less evenly: every ray chooses from some.
 constexpr int kPlacesByDirection = 2, kPlacesByArea = 16, kLeastPlacesByArea = 8;
-constexpr int kMostPlaces = 16;
 constexpr float kAlikeBeyond = 5;
 /// A polygon that looks smaller than this is sampled by area, sr.
 constexpr float kLeastSolidAngle = 1e-4f;
@@ -215,6 +214,22 @@ int DirectLight::Sources(const GatherPoint& at, Source* sources) const {
   return count;
 }
 
+DirectLight::Fan::Fan(const EmittingPolygon& polygon, const GatherPoint& at) {
+  std::array<Vec3d, EmittingPolygon::kMostCorners> toward;
+  for (size_t c = 0; c < size_t(polygon.count); ++c) {
+    toward[c] = Normalize(Vec3d(polygon.corners[c]) - Vec3d(at.position));
+    cornerCosine[c] = std::max(kLeastCosine, Dot(at.normal, Vec3f(toward[c])));
+  }
+  float given = 0;
+  for (size_t c = 2; c < size_t(polygon.count); ++c) {
+    triangles[c - 2] = SphericalTriangle(toward[0], toward[c - 1], toward[c]);
+    const float angle = float(triangles[c - 2].SolidAngle());
+    solidAngle += angle;
+    given += angle * (cornerCosine[0] + 2 * cornerCosine[c - 1] + cornerCosine[c]) / 4;
+    upTo[c - 2] = given;
+  }
+}
+
 DirectLight::PolygonView::PolygonView(const Emitter& emitter_, const GatherPoint& at_)
     : emitter(emitter_), at(at_) {
   // From near by, by solid angle.
@@ -225,20 +240,8 @@ DirectLight::PolygonView::PolygonView(const Emitter& emitter_, const GatherPoint
       polygon.DistanceSquared(at.position) > Square(kLargeWithin * emitter.size)) {
     return;
   }
-  std::array<Vec3d, EmittingPolygon::kMostCorners> toward;
-  for (size_t c = 0; c < size_t(polygon.count); ++c) {
-    toward[c] = Normalize(Vec3d(polygon.corners[c]) - Vec3d(at.position));
-    cornerCosine[c] = std::max(kLeastCosine, Dot(at.normal, Vec3f(toward[c])));
-  }
-  float given = 0, solidAngle = 0;
-  for (size_t c = 2; c < size_t(polygon.count); ++c) {
-    fan[c - 2] = SphericalTriangle(toward[0], toward[c - 1], toward[c]);
-    const float angle = float(fan[c - 2].SolidAngle());
-    solidAngle += angle;
-    given += angle * (cornerCosine[0] + 2 * cornerCosine[c - 1] + cornerCosine[c]) / 4;
-    fanUpTo[c - 2] = given;
-  }
-  byDirection = solidAngle > kLeastSolidAngle;
+  fan.emplace(polygon, at);
+  if (!(fan->solidAngle > kLeastSolidAngle)) fan.reset();
 }
 
 // Of density bilinear between the cosines at the corners, in direction; of `uv` uniform in [0, 1).
@@ -246,19 +249,20 @@ Vec3f DirectLight::PolygonView::PlaceInDirection(const Vec2f& uv, float* density
   // The triangle.
   const EmittingPolygon& polygon = emitter.polygon;
   size_t t = 0;
-  const float chosen = uv.x * fanUpTo[size_t(polygon.count) - 3];
-  while (int(t) + 3 < polygon.count && chosen >= fanUpTo[t]) ++t;
-  const float before = t > 0 ? fanUpTo[t - 1] : 0, share = fanUpTo[t] - before;
+  const float chosen = uv.x * fan->upTo[size_t(polygon.count) - 3];
+  while (int(t) + 3 < polygon.count && chosen >= fan->upTo[t]) ++t;
+  const float before = t > 0 ? fan->upTo[t - 1] : 0, share = fan->upTo[t] - before;
   const float u = share > 0 ? std::min(1.f, (chosen - before) / share) : 0.5f;
 
   // From its second corner towards the arc from the first to the third.
-  const float first = cornerCosine[0], second = cornerCosine[t + 1], third = cornerCosine[t + 2];
+  const auto& cosine = fan->cornerCosine;
+  const float first = cosine[0], second = cosine[t + 1], third = cosine[t + 2];
   const float away = LinearlyDense(uv.y, 2 * second, first + third);
   const float atFirst = second + away * (first - second),
               atThird = second + away * (third - second);
   const float along = LinearlyDense(u, atFirst, atThird);
   *density = atFirst + along * (atThird - atFirst);
-  const Vec3d d = fan[t].Sample(double(along), double(away));
+  const Vec3d d = fan->triangles[t].Sample(double(along), double(away));
   const Vec3d normal(polygon.normal);
   const double slope = Dot(d, normal);
   const double height = Dot(Vec3d(polygon.corners[0]) - Vec3d(at.position), normal);
@@ -269,15 +273,14 @@ Vec3f DirectLight::PolygonView::PlaceInDirection(const Vec2f& uv, float* density
 // none below the horizon.
 Vec3f DirectLight::PolygonView::Place(const Vec2f& uv, float* given) const {
   float density = 1;
-  const Vec3f place =
-      byDirection ? this->PlaceInDirection(uv, &density) : emitter.Place(uv.x, uv.y);
+  const Vec3f place = fan ? this->PlaceInDirection(uv, &density) : emitter.Place(uv.x, uv.y);
   const Vec3f offset = place - at.position;
   const float cosine = Dot(at.normal, offset), squared = LengthSquared(offset);
   const bool isAbove = cosine > 0 && Dot(at.geometricNormal, offset) > 0;
   if (!isAbove) {
     *given = 0;
   } else {
-    *given = byDirection ? cosine / (std::sqrt(squared) * density) : cosine / Square(squared);
+    *given = fan ? cosine / (std::sqrt(squared) * density) : cosine / Square(squared);
   }
   return place;
 }
@@ -288,33 +291,35 @@ Vec3f DirectLight::PolygonView::Place(const Vec2f& uv, float* given) const {
 bool DirectLight::PolygonView::PickPlace(const Vec2f& uv, int rays, Random* random, Vec3f* target,
                                          float* value) const {
   // Evenly over the ray's share, one after the other across it.
-  const int shared = byDirection ? kPlacesByDirection : kPlacesByArea;
-  const int count = areAlike ? 1 : std::max(byDirection ? 1 : kLeastPlacesByArea, shared / rays);
-  std::array<Vec3f, kMostPlaces> places;
-  std::array<float, kMostPlaces> upTo;
+  const int shared = fan ? kPlacesByDirection : kPlacesByArea;
+  const int count = areAlike ? 1 : std::max(fan ? 1 : kLeastPlacesByArea, shared / rays);
   const float step = 1 / float(count * rays);
-  float sum = 0;
+  float sum = 0, u = random->Uniform();
   for (int i = 0; i < count; ++i) {
     const Vec2f next(Fraction(uv.x + float(i) * step), RadicalInverse(uint32_t(i), uv.y));
     float given = 0;
-    places[size_t(i)] = this->Place(next, &given);
+    const Vec3f place = this->Place(next, &given);
     sum += given;
-    upTo[size_t(i)] = sum;
+    // Each takes the place of those before it by its part of what they all give.
+    const float part = sum > 0 ? given / sum : 0;
+    if (u < part) {
+      *target = place;
+      u /= part;
+    } else if (part < 1) {
+      u = (u - part) / (1 - part);
+    }
   }
   *value = sum / float(count);
-  if (sum > 0) {
-    const float chosen = random->Uniform() * sum;
-    int i = 0;
-    while (i + 1 < count && upTo[size_t(i)] <= chosen) ++i;
-    *target = places[size_t(i)];
-    return true;
-  }
+  return sum > 0 || this->PickAnother(count, random, target, value);
+}
 
-  // Where all lie below the horizon, some others.
+// Where all that were tried lie below the horizon.
+bool DirectLight::PolygonView::PickAnother(int tried, Random* random, Vec3f* target,
+                                           float* value) const {
   for (int i = 0; i < kMorePlaces; ++i) {
     const float u = random->Uniform();
     *target = this->Place({u, random->Uniform()}, value);
-    *value /= float(count + i + 1);
+    *value /= float(tried + i + 1);
     if (*value > 0) return true;
   }
   return false;

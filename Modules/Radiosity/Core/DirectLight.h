@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "Common/Core/Random.h"
@@ -66,19 +67,26 @@ class DirectLight {
     explicit Emitter(const EmittingPolygon& polygon);
     Vec3f Place(float u, float v) const;
   };
+  /// The directions to a polygon near by.
+  struct Fan {
+    std::array<SphericalTriangle, EmittingPolygon::kMostCorners - 2> triangles;
+    std::array<float, EmittingPolygon::kMostCorners> cornerCosine;  ///< to the corners, above 0
+    /// Of the first triangles with each, solid angle times cosine.
+    std::array<float, EmittingPolygon::kMostCorners - 2> upTo;
+    float solidAngle = 0;  ///< sr
+
+    Fan(const EmittingPolygon& polygon, const GatherPoint& at);
+  };
   /// A polygon as seen from a point.
   struct PolygonView {
     const Emitter& emitter;
     const GatherPoint& at;
-    bool areAlike = false;     ///< all places on it give alike
-    bool byDirection = false;  ///< places are chosen by direction, else by area
-    std::array<SphericalTriangle, EmittingPolygon::kMostCorners - 2> fan;
-    std::array<float, EmittingPolygon::kMostCorners> cornerCosine;  ///< to the corners, above 0
-    /// Of the first triangles of the fan with each, solid angle times cosine.
-    std::array<float, EmittingPolygon::kMostCorners - 2> fanUpTo;
+    bool areAlike = false;   ///< all places on it give alike
+    std::optional<Fan> fan;  ///< places are chosen by direction; else by area
 
     PolygonView(const Emitter& emitter, const GatherPoint& at);
     bool PickPlace(const Vec2f& uv, int rays, Random* random, Vec3f* target, float* value) const;
+    bool PickAnother(int tried, Random* random, Vec3f* target, float* value) const;
     Vec3f Place(const Vec2f& uv, float* given) const;
     Vec3f PlaceInDirection(const Vec2f& uv, float* density) const;
   };

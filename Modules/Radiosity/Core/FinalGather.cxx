@@ -65,6 +65,7 @@ FinalGather::FinalGather(const ElementHierarchy& hierarchy, const RayScene& rayS
   sampleDirect_.resize(size_t(hierarchy.Size()));
   hasGathered_.resize(size_t(hierarchy.Size()), 0);
   isUneven_.resize(size_t(hierarchy.Size()), 0);
+  isUnlit_.resize(size_t(hierarchy.Size()), 0);
   for (int32_t index = 0; index < hierarchy.Size(); ++index) {
     const Element& element = hierarchy[index];
     if (element.IsLeaf()) {
@@ -197,9 +198,11 @@ void FinalGather::LightLeaves(const LeafRows& rows, uint64_t seed, int64_t* cast
   }
   meanRadiosity_ = std::max(meanRadiosity_, float(reflected / area));
   for (const int32_t leaf : rows.leaves) {
-    if (!hasGathered_[size_t(leaf)]) {
-      isUneven_[size_t(leaf)] = this->IsUneven(leaf, sampleDirect_[size_t(leaf)].data());
-    }
+    if (hasGathered_[size_t(leaf)]) continue;
+    const auto& direct = sampleDirect_[size_t(leaf)];
+    isUneven_[size_t(leaf)] = this->IsUneven(leaf, direct.data());
+    isUnlit_[size_t(leaf)] =
+        std::all_of(direct.begin(), direct.end(), [](const Spectrum& e) { return e.IsBlack(); });
   }
 }
 
@@ -363,7 +366,8 @@ Spectrum FinalGather::TurnedFromMean(int32_t leaf, const Vec3f& to) const {
 }
 
 // Far away a leaf is as bright as it is in the mean. One nearer than its own size may be seen where
-// it is not: there light is followed for another bounce.
+// it is not: there light is followed for another bounce, and straight from the sources where it has
+// any.
 FinalGather::Seen FinalGather::Met(const RayStart& from, const Vec3f& direction, Random* random,
                                    int bounces, int64_t* rays) const {
   ++*rays;
@@ -397,7 +401,9 @@ FinalGather::Seen FinalGather::Met(const RayStart& from, const Vec3f& direction,
   Vec3f u, v;
   CoordinateSystem(normal, &u, &v);
   const Vec3f d = CosineHemisphere(random->Uniform(), random->Uniform());
-  const Spectrum direct = direct_.Sample(at, 1, random->Bits(), rays).irradiance;
+  const uint64_t seed = random->Bits();
+  const Spectrum direct =
+      isUnlit_[size_t(leaf)] ? Spectrum() : direct_.Sample(at, 1, seed, rays).irradiance;
   const Seen next =
       this->Met({place, normal}, u * d.x + v * d.y + normal * d.z, random, bounces - 1, rays);
   seen.fromSources = reflectance * (direct + next.fromSources);

@@ -130,6 +130,7 @@ class FinalGather {
   std::vector<std::array<Spectrum, kSamplesPerElement>> sampleDirect_;  ///< of it, from sources
   std::vector<uint8_t> hasGathered_;                                    ///< by element
   std::vector<uint8_t> isUneven_;  ///< by element: its samples may lie on two sides of a wall
+  std::vector<uint8_t> isUnlit_;   ///< by element: no ray of its samples found a source
   float meanRadiosity_ = 0;        ///< of the leaves that have gathered, what they reflect, W/m2
   std::vector<Part> parts_;        ///< by element, of triangles and patches
 };

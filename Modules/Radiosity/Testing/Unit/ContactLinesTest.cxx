@@ -97,7 +97,9 @@ TEST(ContactLines, KeepDarknessUnderWhatStandsThere) {
     if (most > 0.15f && least < 0.02f) straddling += area;
   }
 
-  EXPECT_LT(straddling, 0.1);  // 0.2 where it is halved and cut along edges of light alone.
+  // 0.07 to 0.15 by chance of rays; 0.19 to 0.25 where it is halved and cut along edges of light
+  // alone.
+  EXPECT_LT(straddling, 0.17);
 }
 
 }  // namespace
