@@ -1,10 +1,24 @@
 // Solutions of known content for tests of what reads them.
 #pragma once
 
+#include "Common/Testing/TestScenes.h"
 #include "Scene/Core/RadiositySolution.h"
 #include "Scene/Core/Scene.h"
 
 namespace lambert::testing {
+
+/// A furnace whose floor does not emit, so that there is something to measure at. Its floor
+/// reflects nothing: with the other walls black too, the floor's irradiance is the exitance 1 of
+/// what it sees.
+inline Scene BlackFurnace() {
+  Scene scene;
+  BoxMaterials materials(0, 1);
+  materials.emittance[kFloor] = Spectrum(0.f);
+  AddBox(&scene.mesh, {0, 0, 0}, {1, 1, 1}, materials, true, 2);
+  CompleteTables(&scene);
+  return scene;
+}
+
 
 /// A solution of `scene` in which every side of every face receives `irradiance` (W/m2, each band):
 /// each face cut into n^2 triangles, both sides or the front alone.

@@ -33,6 +33,11 @@ constexpr float kAboveLeaf = 2;
 constexpr float kSameWay = 0.8f, kFlat = 0.9999f;
 /// Bounces between near surfaces that are followed before a leaf is taken as one all the same.
 constexpr int kMostBounces = 2;
+/// In gaps narrower than this part of a leaf's radius so many are, where it reflects this part of
+/// the mean radiosity or more: its samples may lie before the gap. Both sides of a gap face each
+/// other: the cosine between their normals is below the negative of the other.
+constexpr float kGap = 0.25f, kBrightInGap = 0.5f, kFacing = 0.7f;
+constexpr int kMostBouncesInGap = 32;
 /// A leaf gathers with at least and at most these multiples of the rays of one of mean area.
 constexpr double kLeastRaysOfLeaf = 0.5, kMostRaysOfLeaf = 64;
 /// Rays to the emitting faces from a sample of a leaf.
@@ -66,6 +71,7 @@ FinalGather::FinalGather(const ElementHierarchy& hierarchy, const RayScene& rayS
   hasGathered_.resize(size_t(hierarchy.Size()), 0);
   isUneven_.resize(size_t(hierarchy.Size()), 0);
   isUnlit_.resize(size_t(hierarchy.Size()), 0);
+  isBright_.resize(size_t(hierarchy.Size()), 0);
   for (int32_t index = 0; index < hierarchy.Size(); ++index) {
     const Element& element = hierarchy[index];
     if (element.IsLeaf()) {
@@ -203,6 +209,7 @@ void FinalGather::LightLeaves(const LeafRows& rows, uint64_t seed, int64_t* cast
     isUneven_[size_t(leaf)] = this->IsUneven(leaf, direct.data());
     isUnlit_[size_t(leaf)] =
         std::all_of(direct.begin(), direct.end(), [](const Spectrum& e) { return e.IsBlack(); });
+    isBright_[size_t(leaf)] = this->IsBright(leaf, direct.data());
   }
 }
 
@@ -285,7 +292,9 @@ void FinalGather::GatherAtLeaves(int rays, double share, uint64_t seed, int64_t*
   }
   meanRadiosity_ = float(reflected / area);
   for (const int32_t leaf : rows.leaves) {
-    isUneven_[size_t(leaf)] = this->IsUneven(leaf, &received_[size_t(leaf) * kPlacesOfLeaf]);
+    const Spectrum* const atSamples = &received_[size_t(leaf) * kPlacesOfLeaf];
+    isUneven_[size_t(leaf)] = this->IsUneven(leaf, atSamples);
+    isBright_[size_t(leaf)] = this->IsBright(leaf, atSamples);
   }
 }
 
@@ -313,6 +322,14 @@ bool FinalGather::IsUneven(int32_t leaf, const Spectrum* atSamples) const {
   }
   const float reflected = element.reflectance.Mean() * (most - least);
   return most > kUneven * least && reflected > kUnevenOverMean * meanRadiosity_;
+}
+
+bool FinalGather::IsBright(int32_t leaf, const Spectrum* atSamples) const {
+  float most = 0;
+  for (size_t k = 0; k < kSamplesPerElement; ++k) {
+    most = std::max(most, (hierarchy_[leaf].reflectance * atSamples[k]).Mean());
+  }
+  return most >= kBrightInGap * meanRadiosity_;
 }
 
 // The nearest sample of a leaf that looks the same way, -1 where none does. One behind a wall that
@@ -365,11 +382,22 @@ Spectrum FinalGather::TurnedFromMean(int32_t leaf, const Vec3f& to) const {
   return turned;
 }
 
+// As a ray meets it, after so many bounces that were followed; `facing`: the cosine between the
+// normals of both ends.
+bool FinalGather::IsTakenAsOne(int32_t leaf, const RayHit& hit, float facing, int followed) const {
+  const Element& element = hierarchy_[leaf];
+  if (hit.distance >= kNear * element.radius) return true;
+  if (followed < kMostBounces) return false;
+  const bool isInGap = hit.distance < kGap * element.radius && facing < -kFacing;
+  if (!isInGap || followed >= kMostBouncesInGap) return true;
+  return !isBright_[size_t(leaf)];
+}
+
 // Far away a leaf is as bright as it is in the mean. One nearer than its own size may be seen where
 // it is not: there light is followed for another bounce, and straight from the sources where it has
 // any.
 FinalGather::Seen FinalGather::Met(const RayStart& from, const Vec3f& direction, Random* random,
-                                   int bounces, int64_t* rays) const {
+                                   int followed, int64_t* rays) const {
   ++*rays;
   Seen seen;
   const RayHit hit = rayScene_.Closest(from, direction);
@@ -386,7 +414,7 @@ FinalGather::Seen FinalGather::Met(const RayStart& from, const Vec3f& direction,
   const int32_t leaf = this->LeafAt(hit.face, side, place);
   if (leaf < 0) return seen;
   const Element& element = hierarchy_[leaf];
-  if (bounces == 0 || hit.distance >= kNear * element.radius) {
+  if (this->IsTakenAsOne(leaf, hit, Dot(from.normal, normal), followed)) {
     // The sample that tells of the place.
     const int k = this->TellingSample(leaf, place, normal, rays);
     seen.place = int64_t(leaf) * kPlacesOfLeaf + (k < 0 ? kMean : k);
@@ -396,7 +424,13 @@ FinalGather::Seen FinalGather::Met(const RayStart& from, const Vec3f& direction,
     return seen;
   }
 
-  // One direction stands for all of them.
+  // One direction stands for all of them; deep in a gap some stand for all that come as far.
+  Spectrum reflected = reflectance;
+  if (followed >= kMostBounces) {
+    const float most = reflectance.MaxBand();
+    if (random->Uniform() >= most) return seen;
+    reflected = reflectance / most;
+  }
   const GatherPoint at{place, normal, normal};
   Vec3f u, v;
   CoordinateSystem(normal, &u, &v);
@@ -405,9 +439,9 @@ FinalGather::Seen FinalGather::Met(const RayStart& from, const Vec3f& direction,
   const Spectrum direct =
       isUnlit_[size_t(leaf)] ? Spectrum() : direct_.Sample(at, 1, seed, rays).irradiance;
   const Seen next =
-      this->Met({place, normal}, u * d.x + v * d.y + normal * d.z, random, bounces - 1, rays);
-  seen.fromSources = reflectance * (direct + next.fromSources);
-  seen.part = reflectance * next.part;
+      this->Met({place, normal}, u * d.x + v * d.y + normal * d.z, random, followed + 1, rays);
+  seen.fromSources = reflected * (direct + next.fromSources);
+  seen.part = reflected * next.part;
   seen.turned = next.turned;
   seen.place = next.place;
   return seen;
@@ -458,8 +492,7 @@ void FinalGather::CastBatch(const GatherPoint* points, int count, const BounceRa
             u[size_t(ray.point)] * d.x + v[size_t(ray.point)] * d.y + at.normal * d.z;
         if (Dot(direction, at.geometricNormal) <= 0) continue;
         Random random(HashBits(rays.seed, ray.index));
-        use(begin + r,
-            this->Met({at.position, at.geometricNormal}, direction, &random, kMostBounces, cast));
+        use(begin + r, this->Met({at.position, at.geometricNormal}, direction, &random, 0, cast));
       }
     }
   }

@@ -86,7 +86,7 @@ class FinalGather {
     int64_t place = -1;  ///< of received_; -1: no leaf
     float distance = 0;  ///< of what it meets, m; 0: nothing
   };
-  Seen Met(const RayStart& from, const Vec3f& direction, Random* random, int bounces,
+  Seen Met(const RayStart& from, const Vec3f& direction, Random* random, int followed,
            int64_t* rays) const;
   Spectrum RadiosityOf(const Seen& seen) const {
     return seen.place < 0
@@ -102,6 +102,8 @@ class FinalGather {
   Spectrum TurnedFromMean(int32_t leaf, const Vec3f& to) const;
   int TellingSample(int32_t leaf, const Vec3f& place, const Vec3f& normal, int64_t* rays) const;
   bool IsUneven(int32_t leaf, const Spectrum* atSamples) const;
+  bool IsBright(int32_t leaf, const Spectrum* atSamples) const;
+  bool IsTakenAsOne(int32_t leaf, const RayHit& hit, float facing, int followed) const;
   void Receive(int32_t leaf, const Spectrum& irradiance);
   template <class Use>
   void CastBatch(const GatherPoint* points, int count, const BounceRays& rays, int64_t* cast,
@@ -131,8 +133,10 @@ class FinalGather {
   std::vector<uint8_t> hasGathered_;                                    ///< by element
   std::vector<uint8_t> isUneven_;  ///< by element: its samples may lie on two sides of a wall
   std::vector<uint8_t> isUnlit_;   ///< by element: no ray of its samples found a source
-  float meanRadiosity_ = 0;        ///< of the leaves that have gathered, what they reflect, W/m2
-  std::vector<Part> parts_;        ///< by element, of triangles and patches
+  std::vector<uint8_t>
+      isBright_;             ///< by element: much of what reads it in a narrow gap would be wrong
+  float meanRadiosity_ = 0;  ///< of the leaves that have gathered, what they reflect, W/m2
+  std::vector<Part> parts_;  ///< by element, of triangles and patches
 };
 
 }  // namespace lambert

@@ -8,6 +8,7 @@
 #include "Common/Core/Barycentric.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/Random.h"
+#include "Radiosity/Core/MiddleTrends.h"
 #include "Radiosity/Core/VertexFitting.h"
 
 namespace lambert {
@@ -93,15 +94,20 @@ double GatheredMesh::Area(int64_t triangle) const {
                    Cross(points[size_t(p[1])].position - a, points[size_t(p[2])].position - a)));
 }
 
-// Squared relative error of interpolation times area: a jump of height h somewhere in a triangle
-// leaves about h^2 / 6 in the mean; or what its middle tells, if that is more.
-double GatheredMesh::Error(int64_t triangle, const LightScale& scale) const {
+// Squared relative error of interpolation as its corners tell it: a jump of height h somewhere in a
+// triangle leaves about h^2 / 6 in the mean.
+double GatheredMesh::ErrorOfCorners(int64_t triangle, const LightScale& scale) const {
   const int32_t patch = mesh_.Triangles()[size_t(triangle)].patch;
   const double part = patch >= 0 && size_t(patch) < nonlinearity_.size()
                           ? double(nonlinearity_[size_t(patch)])
                           : double(kFirstNonlinearity);
-  double error = part * part * this->Difference(triangle) / 6 *
-                 ErrorWeight(this->DarkestLight(triangle), scale.mean, scale.meanSquare);
+  return part * part * this->Difference(triangle) / 6 *
+         ErrorWeight(this->DarkestLight(triangle), scale.mean, scale.meanSquare);
+}
+
+// The same times area; or what its middle tells, if that is more.
+double GatheredMesh::Error(int64_t triangle, const LightScale& scale) const {
+  double error = this->ErrorOfCorners(triangle, scale);
   if (const Middle* const middle = middleOfTriangle_[size_t(triangle)]) {
     error = std::max(error, this->ErrorOfMiddle(triangle, *middle, scale));
   }
@@ -139,18 +145,13 @@ uint64_t GatheredMesh::Key(int64_t triangle) const {
 
 // A triangle may hold a light or a shadow that none of its corners lies in. Of all that are alike
 // in size, in what their corners tell, and in whether something lies close to them, some are asked
-// in their middle, or in that place; all are where that pays most, until those that are left hold
-// too little to count.
-void GatheredMesh::ProbeMiddles(double wanted, int64_t* rays) {
+// in their middle, or in that place.
+void GatheredMesh::ProbeSome(double wanted, int64_t* rays) {
   // Triangles that were not asked before, by an octave of area and of error, and by what is close.
+  alike_.clear();
   const LightScale scale = this->MeasureLight();
   if (!(scale.mean > 0)) return;
-  struct Alike {
-    std::vector<int64_t> triangles;
-    size_t asked = 0;
-    double error = 0;  ///< squared, of each, by those that were asked
-  };
-  std::map<std::array<int, 3>, Alike> classes;
+  std::map<std::array<int, 3>, AlikeTriangles> classes;
   closePlaceOf_ = closePlaces_.InTriangles(mesh_, hierarchy_->Leaves());
   const std::vector<double> errors = this->Errors(scale);
   for (int64_t t = 0; t < int64_t(mesh_.Triangles().size()); ++t) {
@@ -173,30 +174,33 @@ void GatheredMesh::ProbeMiddles(double wanted, int64_t* rays) {
     alike.asked =
         std::min(triangles.size(), std::max(kLeastProbes, triangles.size() / kProbedPart));
     few.insert(few.end(), triangles.begin(), triangles.begin() + int64_t(alike.asked));
+    alike_.push_back(std::move(alike));
   }
   this->Probe(few, rays);
+}
 
-  // All of those that have something to tell.
-  std::vector<const Alike*> byError;
-  for (auto& [key, alike] : classes) {
+// All of those that have something to tell are asked, until those that are left hold too little to
+// count.
+void GatheredMesh::ProbeRest(double wanted, int64_t* rays) {
+  const LightScale scale = this->MeasureLight();
+  for (AlikeTriangles& alike : alike_) {
     for (size_t i = 0; i < alike.asked; ++i) {
       const int64_t t = alike.triangles[i];
       const double error = this->ErrorOfMiddle(t, *middleOfTriangle_[size_t(t)], scale);
       alike.error += this->Area(t) / scale.area * error / double(alike.asked);
     }
-    byError.push_back(&alike);
   }
-  std::sort(byError.begin(), byError.end(), [](const Alike* a, const Alike* b) {
-    return a->error != b->error ? a->error < b->error : a->triangles < b->triangles;
+  std::sort(alike_.begin(), alike_.end(), [](const AlikeTriangles& a, const AlikeTriangles& b) {
+    return a.error != b.error ? a.error < b.error : a.triangles < b.triangles;
   });
   double left = 0;
   std::vector<int64_t> rest;
-  for (const Alike* alike : byError) {
-    left += alike->error * double(alike->triangles.size() - alike->asked);
+  for (const AlikeTriangles& alike : alike_) {
+    left += alike.error * double(alike.triangles.size() - alike.asked);
     if (left < kUnprobedError * wanted * wanted) continue;
-    rest.insert(rest.end(), alike->triangles.begin() + int64_t(alike->asked),
-                alike->triangles.end());
+    rest.insert(rest.end(), alike.triangles.begin() + int64_t(alike.asked), alike.triangles.end());
   }
+  alike_.clear();
   this->Probe(rest, rays);
 }
 
@@ -258,18 +262,36 @@ void GatheredMesh::Probe(const std::vector<int64_t>& triangles, int64_t* rays) {
   }
 }
 
+// By the triangles whose middles were asked.
+MiddleTrends GatheredMesh::FindTrends(const std::vector<MiddleTrends::Kind>& kinds) const {
+  MiddleTrends trends;
+  for (size_t t = 0; t < kinds.size(); ++t) {
+    const Middle* const middle = middleOfTriangle_[t];
+    if (!middle || !middle->isCentred) continue;
+    trends.Add(kinds[t], double(middle->irradiance.Mean()),
+               double(this->MeanOfCorners(int64_t(t)).Mean()));
+  }
+  return trends;
+}
+
 RadiositySolution GatheredMesh::Deliver() const {
+  // What is not known in the middle of a triangle is what others tell that are alike.
   std::vector<FittedTriangle> triangles(mesh_.Triangles().size());
+  std::vector<MiddleTrends::Kind> kinds(triangles.size());
+  const LightScale scale = this->MeasureLight();
+  ParallelForEach(int64_t(triangles.size()), 1024, [&](int64_t t) {
+    const double error = scale.mean > 0 ? this->ErrorOfCorners(t, scale) : 0;
+    kinds[size_t(t)] = MiddleTrends::KindOf(this->Area(t), error, this->IsNew(t));
+  });
+  const MiddleTrends trends = this->FindTrends(kinds);
   ParallelForEach(int64_t(triangles.size()), 1024, [&](int64_t t) {
     FittedTriangle& triangle = triangles[size_t(t)];
     triangle.points = mesh_.PointsOfTriangles()[size_t(t)];
     triangle.area = float(this->Area(t));
     const Middle* const middle = middleOfTriangle_[size_t(t)];
-    if (middle && middle->isCentred) {
-      triangle.middle = middle->irradiance;
-    } else {
-      for (const int32_t p : triangle.points) triangle.middle += irradiance_[size_t(p)] / 3.f;
-    }
+    const bool isKnown = middle && middle->isCentred;
+    triangle.middle = isKnown ? middle->irradiance
+                              : this->MeanOfCorners(t) * float(1 + trends.Of(kinds[size_t(t)]));
   });
   return mesh_.Deliver(FitVertices(irradiance_, triangles));
 }
@@ -333,6 +355,20 @@ void GatheredMesh::LearnNonlinearity() {
                                      float(std::sqrt(deviation[size_t(index)] / difference))))
             : 1.f;
   }
+}
+
+// It came from the last cut: where most is wrong.
+bool GatheredMesh::IsNew(int64_t triangle) const {
+  const auto& points = mesh_.PointsOfTriangles()[size_t(triangle)];
+  return std::any_of(points.begin(), points.end(), [&](int32_t p) { return isNew_[size_t(p)]; });
+}
+
+Spectrum GatheredMesh::MeanOfCorners(int64_t triangle) const {
+  Spectrum mean;
+  for (const int32_t p : mesh_.PointsOfTriangles()[size_t(triangle)]) {
+    mean += irradiance_[size_t(p)] / 3.f;
+  }
+  return mean;
 }
 
 double GatheredMesh::MeanLight(int64_t triangle) const {

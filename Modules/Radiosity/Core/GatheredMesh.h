@@ -13,6 +13,7 @@
 #include "Radiosity/Core/ContactLines.h"
 #include "Radiosity/Core/ElementHierarchy.h"
 #include "Radiosity/Core/GatheredPoints.h"
+#include "Radiosity/Core/MiddleTrends.h"
 #include "Radiosity/Core/RefinedMesh.h"
 #include "Reference/Core/SolutionError.h"
 
@@ -42,9 +43,12 @@ class GatheredMesh {
   }
   /// How far interpolation was off where triangles were cut.
   void LearnNonlinearity();
-  /// Asks for light in the middle of triangles that may hold more error than their corners tell, or
-  /// where something lies close to them; `wanted` is the relative RMS error that is.
-  void ProbeMiddles(double wanted, int64_t* rays);
+  /// Asks for light in the middle of some triangles of every kind, or where something lies close to
+  /// them; `wanted` is the relative RMS error that is.
+  void ProbeSome(double wanted, int64_t* rays);
+  bool HasProbedSome() const { return !alike_.empty(); }
+  /// In those of all others that may hold more error than their corners tell, by what some told.
+  void ProbeRest(double wanted, int64_t* rays);
   /// Cuts the triangles that hold the most of the error, along the feet of what stands on them or
   /// the edges of shadows where they find one, until interpolation leaves about `wanted`; false
   /// where it does, or nothing can be cut.
@@ -98,19 +102,29 @@ class GatheredMesh {
     double deviation = 0;
     bool isCentred = true;
   };
+  /// Triangles that are alike; the first of them were asked in their middle.
+  struct AlikeTriangles {
+    std::vector<int64_t> triangles;
+    size_t asked = 0;
+    double error = 0;  ///< squared, of each, by those that were asked
+  };
   LightScale MeasureLight() const;
+  Spectrum MeanOfCorners(int64_t triangle) const;
   double MeanLight(int64_t triangle) const;
   double DarkestLight(int64_t triangle) const;
   void RecallMiddles();
   Vec3f WeightsOfMiddle(int64_t triangle) const;
   void Probe(const std::vector<int64_t>& triangles, int64_t* rays);
   double Difference(int64_t triangle) const;
+  double ErrorOfCorners(int64_t triangle, const LightScale& scale) const;
   double Error(int64_t triangle, const LightScale& scale) const;
   std::vector<double> Errors(const LightScale& scale) const;
   double ErrorOfMiddle(int64_t triangle, const Middle& middle, const LightScale& scale) const;
+  MiddleTrends FindTrends(const std::vector<MiddleTrends::Kind>& kinds) const;
   double Area(int64_t triangle) const;
   uint64_t Key(int64_t triangle) const;
   bool Receives(int64_t triangle) const;
+  bool IsNew(int64_t triangle) const;
   int32_t PatchOf(int64_t triangle);
   bool IsAtFloor(int64_t triangle) const;
   bool IsPatchAtFloor(int32_t patch) const;
@@ -140,6 +154,7 @@ class GatheredMesh {
   std::vector<Spectrum> irradiance_;             ///< per point
   std::vector<float> variance_;                  ///< per point, of the irradiance
   std::unordered_map<uint64_t, Middle> probed_;  ///< by the key of the triangle
+  std::vector<AlikeTriangles> alike_;            ///< of which some were asked in this round
   std::vector<const Middle*> middleOfTriangle_;  ///< of them; null where it was not asked
   std::vector<uint8_t> isNew_;                   ///< per point: gathered in this round
   std::vector<float> nonlinearity_;              ///< per patch

@@ -103,13 +103,16 @@ void GatheredSolution::Gather(double noise, const ProgressCallback& progress) {
   self.mesh->GatherAtPoints(self.rays, progress);
 }
 
+// What some middles tell counts at once, and where more are asked in the next round.
 bool GatheredSolution::Cut(double error, const ProgressCallback& progress) {
   Implementation& self = *implementation_;
   if (self.mesh->IsFull()) return false;
-  self.mesh->LearnNonlinearity();
-  self.mesh->ProbeMiddles(error, self.rays);
+  if (!self.mesh->HasProbedSome()) self.mesh->ProbeSome(error, self.rays);
+  self.mesh->ProbeRest(error, self.rays);
   if (!self.mesh->CutTriangles(error, self.rays)) return false;
   self.mesh->GatherAtPoints(self.rays, progress);
+  self.mesh->LearnNonlinearity();
+  self.mesh->ProbeSome(error, self.rays);
   return true;
 }
 

@@ -71,6 +71,8 @@ constexpr double kFirstRound = 0.75, kRoundGrowth = 1.5;
 /// What interpolation may leave at first, of the wanted error; and the rounds of cutting it takes.
 constexpr double kInterpolationShare = 0.65;
 constexpr int kCuttingRounds = 5;
+/// Rounds after which one may be enough: the first finds small shadows, the second cuts along them.
+constexpr int kLeastRounds = 2;
 
 /// Power of all sources, W, largest band: a first guess of what surfaces receive. Skies and suns
 /// count over the bounds.
@@ -188,6 +190,7 @@ struct HierarchicalRadiosity::Implementation {
   RadiositySolution Reconstruct();
   RadiositySolution LightOfLinks();
   bool EndsHere(bool goOn);
+  bool IsSurelyMet(Verification* verification);
   bool EndsVerified(Verification* verification);
   bool HasTimeFor(double seconds) const {
     return !(options.timeLimit > 0 && clock.Seconds() + seconds > options.timeLimit);
@@ -360,10 +363,21 @@ RadiositySolution HierarchicalRadiosity::Implementation::LightOfLinks() {
   return solution;
 }
 
+// Whether what is delivered is good enough before all rounds of cuts are made.
+bool HierarchicalRadiosity::Implementation::IsSurelyMet(Verification* verification) {
+  if (options.verificationPoints <= 0) return false;
+  ReturnFreedMemory();  // Verification takes the most.
+  const bool isMet =
+      statistics.stages.Time("verification", [&] { return verification->IsSurelyMet(*delivered); });
+  statistics.history.back().error = verification->Error();
+  return isMet;
+}
+
 // Verifies what is delivered; true, with the reason, where that ends the run.
 bool HierarchicalRadiosity::Implementation::EndsVerified(Verification* verification) {
   if (options.verificationPoints > 0) {
     if (!delivered) delivered = this->Reconstruct();
+    ReturnFreedMemory();
     statistics.history.back().error =
         statistics.stages.Time("verification", [&] { return verification->Measure(*delivered); });
   }
@@ -421,8 +435,8 @@ void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
       if (!self.HasTimeFor(next)) statistics.stoppedBy = "time";
       if (!self.memory.HasRoomForCuts(*self.delivered)) statistics.stoppedBy = "memory";
       if (!statistics.stoppedBy.empty()) return;
+      if (round >= kLeastRounds && round < rounds && self.IsSurelyMet(&verification)) break;
     }
-    ReturnFreedMemory();  // Verification takes the most.
     if (self.EndsVerified(&verification)) return;
     // More rays take away no more than their scatter.
     const double scatter = NoiseFor(aim), error = verification.Error();

@@ -2,7 +2,6 @@
 
 #include "Common/Core/Random.h"
 #include "Radiosity/Core/HierarchicalRadiosity.h"
-#include "Reference/Core/SolutionError.h"
 
 namespace lambert {
 
@@ -19,16 +18,28 @@ constexpr int kVerificationGrowth = 16;
 
 }  // namespace
 
-double Verification::Measure(const RadiositySolution& solution) {
-  // Another set of points each time, or the second would be chosen by the first.
+// Another set of points for each attempt, or the second would be chosen by the first.
+ErrorPoints& Verification::Points() {
+  if (points_) return *points_;
   SolutionErrorOptions verification;
   verification.points = options_.verificationPoints;
   verification.samples = kVerificationSamples;
   verification.seed = HashBits(0x76657269u, uint64_t(attempts_) + 1);
   verification.growth = options_.timeLimit > 0 ? 1 : kVerificationGrowth;
   verification.enough = kVerifiedBelow * options_.error;
-  this->Note(MeasureSolutionError(scene_, solution, verification).Counting());
+  return points_.emplace(scene_, verification);
+}
+
+double Verification::Measure(const RadiositySolution& solution) {
+  this->Note(this->Points().Measure(solution).Counting());
+  points_.reset();
   return error_;
+}
+
+bool Verification::IsSurelyMet(const RadiositySolution& solution) {
+  const SolutionError error = this->Points().Look(solution);
+  error_ = error.Counting();
+  return error_ <= kVerifiedBelow * options_.error && error.rmsHigh <= options_.error;
 }
 
 void Verification::Recall(const std::vector<IterationRecord>& history) {

@@ -2,9 +2,11 @@
 // until it is or gets no better.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "Reference/Core/ErrorPoints.h"
 #include "Scene/Core/RadiositySolution.h"
 #include "Scene/Core/Scene.h"
 
@@ -20,14 +22,18 @@ class Verification {
 
   /// Error of `solution`, the one that counts, at points of its own for every attempt.
   double Measure(const RadiositySolution& solution);
+  /// Whether the error of `solution`, the one that counts, is the wanted one, and the rms even at
+  /// the upper end of its interval; at the points of the next attempt.
+  bool IsSurelyMet(const RadiositySolution& solution);
   /// Counts the attempts that a history tells of as made.
   void Recall(const std::vector<IterationRecord>& history);
 
-  double Error() const { return error_; }
+  double Error() const { return error_; }  ///< as it was last measured or looked at
   /// Why to stop: "error" or "floor"; empty: go on. What is not verified counts as met.
   std::string Verdict() const;
 
  private:
+  ErrorPoints& Points();
   void Note(double error);
 
   const Scene& scene_;
@@ -35,6 +41,7 @@ class Verification {
   const int patience_;
   int attempts_ = 0, idle_ = 0;
   double error_ = -1, best_ = 0;
+  std::optional<ErrorPoints> points_;  ///< of the next attempt, once something was looked at
 };
 
 }  // namespace lambert

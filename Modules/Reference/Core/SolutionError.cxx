@@ -6,25 +6,13 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Random.h"
-#include "Reference/Core/PathTracedIrradiance.h"
-#include "Scene/Core/DoubledFaces.h"
-#include "Visibility/Core/SolutionLookup.h"
+#include "Reference/Core/ErrorPoints.h"
 
 namespace lambert {
 
 namespace {
 
-/// Paths that find out whether a side that the solution leaves out is dark. A point that all of
-/// them find black gets at most a few hundredths of its light by ways that they can miss.
-constexpr int kDarknessSamples = 64;
 constexpr int kBootstraps = 1000;
-
-/// A place on one side of a face.
-struct Place {
-  int32_t face;
-  Side side;
-  ReceiverPoint receiver;
-};
 
 /// One receiving point, ready to be summed.
 struct Comparison {
@@ -40,61 +28,6 @@ struct Comparison {
     return scale > 0 ? squaredError / (scale * scale) : 0;
   }
 };
-
-/// Places stratified by area over both sides of every face that receives: all fronts, then all
-/// backs. Faces that emit do not count, but where there are no others (a furnace); nor do sides
-/// that lie under doubled faces.
-std::vector<Place> StratifiedPlaces(const TriangleMesh& mesh, const SolutionErrorOptions& options) {
-  const int64_t count = mesh.FaceCount();
-  const std::vector<bool> receives = ReceivingFaces(mesh);
-  const DoubledFaces doubled(mesh);
-  std::vector<double> upTo(size_t(count), 0);
-  double total = 0;
-  for (int64_t face = 0; face < count; ++face) {
-    if (receives[size_t(face)]) total += mesh.Area(face);
-    upTo[size_t(face)] = total;
-  }
-  std::vector<Place> places;
-  if (!(total > 0)) return places;
-  for (int i = 0; i < options.points; ++i) {
-    Random random(HashBits(options.seed, uint64_t(i)));
-    const double target = 2 * total * (i + random.UniformDouble()) / options.points;
-    const Side side = target < total ? kFront : kBack;
-    const auto found =
-        std::upper_bound(upTo.begin(), upTo.end(), side == kFront ? target : target - total);
-    if (found == upTo.end()) continue;
-    const int32_t face = int32_t(found - upTo.begin());
-    if (doubled.IsHidden(face, side)) continue;
-    const float u = random.Uniform(), v = random.Uniform();
-    places.push_back({face, side, ReceiverAt(mesh, face, side, UniformTriangle(u, v))});
-  }
-  return places;
-}
-
-std::vector<ReceiverPoint> Receivers(const std::vector<Place>& places) {
-  std::vector<ReceiverPoint> receivers;
-  receivers.reserve(places.size());
-  for (const Place& place : places) receivers.push_back(place.receiver);
-  return receivers;
-}
-
-/// Leaves out, at little cost, the places that are dark in the solution and in a few paths.
-std::vector<Place> WithoutDarkPlaces(const std::vector<Place>& places, const SolutionLookup& lookup,
-                                     const PathTracedIrradiance& tracer,
-                                     const SolutionErrorOptions& options) {
-  std::vector<Place> kept, doubtful;
-  for (const Place& place : places) {
-    (lookup.Models(place.face, place.side) ? kept : doubtful).push_back(place);
-  }
-  PathTracedIrradianceOptions few;
-  few.samples = std::min(kDarknessSamples, options.samples);
-  few.seed = HashBits(options.seed, 0x6461726bull);
-  const auto light = tracer.Estimate(Receivers(doubtful), few);
-  for (size_t i = 0; i < doubtful.size(); ++i) {
-    if (!light[i].irradiance.IsBlack()) kept.push_back(doubtful[i]);
-  }
-  return kept;
-}
 
 /// True where `p` lies on the face, or nearer to it than `far`.
 bool LiesOn(const TriangleMesh& mesh, int32_t face, const Vec3f& p, float far) {
@@ -230,63 +163,28 @@ SolutionError SummarizeError(const std::vector<Spectrum>& delivered,
   return error;
 }
 
-/// What a solution delivers at receiving points, and the truth there.
-struct ErrorSample {
-  std::vector<Place> places;
-  std::vector<Spectrum> delivered;
-  std::vector<IrradianceEstimate> truth;
-  int64_t drawn = 0, missed = 0;
-};
-
-/// Draws places and adds them to the sample.
-static void DrawPlaces(const Scene& scene, const SolutionLookup& lookup,
-                       const PathTracedIrradiance& tracer, const SolutionErrorOptions& options,
-                       ErrorSample* sample, const ProgressCallback& progress) {
-  // Places that may receive light, and the truth there.
-  const std::vector<Place> all = StratifiedPlaces(scene.mesh, options);
-  const std::vector<Place> places = WithoutDarkPlaces(all, lookup, tracer, options);
-  PathTracedIrradianceOptions trace;
-  trace.samples = options.samples;
-  trace.seed = options.seed;
-  const auto reference = tracer.Estimate(Receivers(places), trace, progress);
-
-  // What the solution delivers there; a side that it leaves out counts where light is sure.
-  sample->drawn += int64_t(all.size());
-  for (size_t i = 0; i < places.size(); ++i) {
-    const Place& place = places[i];
-    if (!lookup.Models(place.face, place.side)) {
-      const double noise = SquaredNorm(reference[i].standardError);
-      if (SquaredNorm(reference[i].irradiance) <= 4 * noise) continue;
-      ++sample->missed;
-    }
-    sample->places.push_back(place);
-    sample->delivered.push_back(
-        lookup.Irradiance(lookup.Find(place.face, place.side, place.receiver.position)));
-    sample->truth.push_back(reference[i]);
-  }
-}
-
-/// The points of a sample by what each adds to its bounded error.
-static std::vector<ComparedPoint> ByPart(const ErrorSample& sample) {
+/// The points by what each adds to the bounded error.
+static std::vector<ComparedPoint> ByPart(const ErrorPoints& points) {
+  const size_t count = points.Places().size();
   double meanReference = 0;
   std::vector<Comparison> comparisons;
-  for (size_t i = 0; i < sample.places.size(); ++i) {
-    comparisons.push_back(Compare(sample.delivered[i], sample.truth[i]));
-    meanReference += comparisons.back().reference / double(sample.places.size());
+  for (size_t i = 0; i < count; ++i) {
+    comparisons.push_back(Compare(points.Delivered()[i], points.Truth()[i]));
+    meanReference += comparisons.back().reference / double(count);
   }
   double sum = 0;
-  std::vector<ComparedPoint> points;
-  for (size_t i = 0; i < sample.places.size(); ++i) {
-    const Place& place = sample.places[i];
+  std::vector<ComparedPoint> compared;
+  for (size_t i = 0; i < count; ++i) {
+    const ErrorPoints::Place& place = points.Places()[i];
     const double part = comparisons[i].BoundedError(meanReference);
     sum += part;
-    points.push_back(
-        {place.face, place.side, place.receiver, sample.delivered[i], sample.truth[i], part});
+    compared.push_back(
+        {place.face, place.side, place.receiver, points.Delivered()[i], points.Truth()[i], part});
   }
-  for (ComparedPoint& point : points) point.part = sum > 0 ? point.part / sum : 0;
-  std::stable_sort(points.begin(), points.end(),
+  for (ComparedPoint& point : compared) point.part = sum > 0 ? point.part / sum : 0;
+  std::stable_sort(compared.begin(), compared.end(),
                    [](const auto& a, const auto& b) { return a.part > b.part; });
-  return points;
+  return compared;
 }
 
 SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& solution,
@@ -294,39 +192,10 @@ SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& 
                                    const ProgressCallback& progress,
                                    std::vector<ComparedPoint>* compared) {
   if (options.points < 1) throw Error("An error needs at least one point to be measured at.");
-  const SolutionLookup lookup(solution, scene.mesh.FaceCount());
   RequireSolutionOf(scene, solution);
-  const PathTracedIrradiance tracer(scene);
-  const int64_t mostPaths = int64_t(options.growth) * options.points * options.samples;
-  SolutionErrorOptions draw = options;
-  ErrorSample sample;
-  SolutionError error;
-  double done = 0;
-  for (uint64_t batch = 1;; ++batch) {
-    const ProgressCallback half = [&](double fraction, const char* stage) {
-      return Report(progress, done + (1 - done) / 2 * fraction, stage);
-    };
-    DrawPlaces(scene, lookup, tracer, draw, &sample, half);
-    done += (1 - done) / 2;
-    error = SummarizeError(sample.delivered, sample.truth, options.seed);
-    error.darkPoints = sample.drawn - error.points;
-    error.missedPoints = sample.missed;
-    if (options.enough > 0 && error.Counting() <= options.enough) break;
-
-    // More paths a point where their noise is more than the error, else as many points again where
-    // few of them decide.
-    draw.seed = HashBits(options.seed, batch);
-    if (error.noise > error.Counting() && 4 * draw.samples * sample.drawn <= mostPaths) {
-      draw.samples *= 4;
-      draw.points = int(sample.drawn);
-      sample = {};
-    } else if (!error.IsRmsSure() && 2 * draw.samples * sample.drawn <= mostPaths) {
-      draw.points = int(sample.drawn);
-    } else {
-      break;
-    }
-  }
-  if (compared) *compared = ByPart(sample);
+  ErrorPoints points(scene, options);
+  const SolutionError error = points.Measure(solution, progress);
+  if (compared) *compared = ByPart(points);
   return error;
 }
 

@@ -63,6 +63,30 @@ TEST(FinalGather, NoLightComesThroughAWallThatStandsOnALeaf) {
   EXPECT_GT(bounced({0.67f, 0.5f, 0.25f}, {1, 0, 0}), 0.1f) << "outside";
 }
 
+TEST(FinalGather, AGapIsDarkBehindItsOpening) {
+  // A plate 1 mm over a lit floor whose samples lie around it. At its edge light enters.
+  testing::ModelledScene modelled;
+  TriangleMesh& mesh = modelled.scene.mesh;
+  testing::AddQuad(&mesh, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, Spectrum(0.8f));
+  testing::AddQuad(&mesh, {0.45f, 0.45f, 0.001f}, {0, 0.1f, 0}, {0.1f, 0, 0}, Spectrum(0.8f),
+                   Spectrum(0.f), 1, 1);
+  testing::AddQuad(&mesh, {0, 0, 3}, {0, 1, 0}, {1, 0, 0}, Spectrum(0.f), Spectrum(100.f), 2, 1, 2);
+  modelled.Model();
+  ElementLight light;
+  light.Grow(*modelled.hierarchy);
+  FinalGather gather(*modelled.hierarchy, *modelled.rayScene, &light);
+  int64_t rays = 0;
+  gather.GatherAtLeaves(1024, 1, 1, &rays);
+  const auto bounced = [&](float x) {
+    BounceRays bounce;
+    bounce.count = 4096;
+    const Vec3f down{0, 0, -1};
+    return gather.Bounces({{{x, 0.5f, 0.001f}, down, down, 0}}, bounce, &rays)[0].Mean().g;
+  };
+  EXPECT_GT(bounced(0.4501f), 1.f);
+  EXPECT_LT(bounced(0.5f), 0.1f);  // 0.9 where a third bounce reads the floor.
+}
+
 TEST(FinalGather, FacetsThatTurnWithinALeafAddNoLight) {
   // A furnace in one leaf that faces all ways, of which links knew that its light comes from above,
   // and a lamp outside: what is there is brighter than the furnace could ever be.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "Common/Testing/SolutionFixtures.h"
 #include "Radiosity/Core/HierarchicalRadiosity.h"
 
 namespace lambert {
@@ -35,6 +36,23 @@ TEST(VerificationTest, GivesUpAfterAttemptsThatGainTooLittle) {
   EXPECT_EQ(VerdictOf({0.5, 0.49, 0.48}), "floor");
   EXPECT_EQ(VerdictOf({0.5, 0.49, 0.3, 0.29}), "");  // One that gains begins anew.
   EXPECT_EQ(VerdictOf({0.5, 0.49, 0.3, 0.29, 0.31}), "floor");
+}
+
+TEST(VerificationTest, IsSureWhereTheWholeIntervalIsMet) {
+  // A furnace 10 % too bright.
+  const Scene scene = testing::BlackFurnace();
+  const RadiositySolution solution = testing::FlatSolution(scene, 1.1f, 3, false);
+  HierarchicalRadiosityOptions options;
+  options.verificationPoints = 500;
+  options.error = 0.12;
+  Verification loose(scene, options, 1);
+  EXPECT_TRUE(loose.IsSurelyMet(solution));
+  const double looked = loose.Error();
+  EXPECT_EQ(loose.Measure(solution), looked) << "at the same points";
+  EXPECT_EQ(loose.Verdict(), "error");
+  options.error = 0.1;
+  Verification tight(scene, options, 1);
+  EXPECT_FALSE(tight.IsSurelyMet(solution));
 }
 
 }  // namespace

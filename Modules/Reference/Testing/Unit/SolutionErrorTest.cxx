@@ -14,18 +14,6 @@ namespace {
 
 using namespace testing;
 
-/// A furnace whose floor does not emit, so that there is something to measure at. Its floor
-/// reflects nothing: with the other walls black too, the floor's irradiance is the exitance 1 of
-/// what it sees.
-Scene BlackFurnace() {
-  Scene scene;
-  BoxMaterials materials(0, 1);
-  materials.emittance[kFloor] = Spectrum(0.f);
-  AddBox(&scene.mesh, {0, 0, 0}, {1, 1, 1}, materials, true, 2);
-  CompleteTables(&scene);
-  return scene;
-}
-
 TEST(SolutionError, NoneOfAnExactSolution) {
   const Scene scene = BlackFurnace();
   const SolutionError error =
