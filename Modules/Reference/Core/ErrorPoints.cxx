@@ -111,8 +111,8 @@ SolutionError ErrorPoints::Compare(const SolutionLookup& lookup) {
 
 // More paths a point where their noise is more than the error, else as many points again where few
 // of them decide; false where neither would help, or there are as many as there may be.
-bool ErrorPoints::Grow(const SolutionError& error) {
-  const int64_t mostPaths = int64_t(options_.growth) * options_.points * options_.samples;
+bool ErrorPoints::Grow(const SolutionError& error, int growth) {
+  const int64_t mostPaths = int64_t(growth) * options_.points * options_.samples;
   if (options_.enough > 0 && error.Counting() <= options_.enough) return false;
   draw_.seed = HashBits(options_.seed, batches_);
   if (error.noise > error.Counting() && 4 * draw_.samples * drawn_ <= mostPaths) {
@@ -133,7 +133,7 @@ SolutionError ErrorPoints::Look(const RadiositySolution& solution,
   return this->Compare(lookup);
 }
 
-SolutionError ErrorPoints::Measure(const RadiositySolution& solution,
+SolutionError ErrorPoints::Measure(const RadiositySolution& solution, int growth,
                                    const ProgressCallback& progress) {
   const SolutionLookup lookup(solution, scene_.mesh.FaceCount());
   double done = 0;
@@ -142,7 +142,7 @@ SolutionError ErrorPoints::Measure(const RadiositySolution& solution,
   };
   if (batches_ == 0) this->Draw(lookup, half);
   SolutionError error = this->Compare(lookup);
-  while (this->Grow(error)) {
+  while (this->Grow(error, growth)) {
     done += (1 - done) / 2;
     this->Draw(lookup, half);
     error = this->Compare(lookup);

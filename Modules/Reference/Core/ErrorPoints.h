@@ -24,15 +24,17 @@ class ErrorPoints {
     ReceiverPoint receiver;
   };
 
-  /// `scene` by reference.
+  /// `scene` by reference. `options.growth` does not count.
   ErrorPoints(const Scene& scene, const SolutionErrorOptions& options)
       : scene_(scene), options_(options), draw_(options) {}
 
   /// The figures of `solution` at the points there are, at first `options.points`: however unsure
   /// they are. Throws Cancelled.
   SolutionError Look(const RadiositySolution& solution, const ProgressCallback& progress = {});
-  /// The same, with more paths or points, up to `options.growth` times, where those do not decide.
-  SolutionError Measure(const RadiositySolution& solution, const ProgressCallback& progress = {});
+  /// The same, with more paths or points, up to `growth` times those of the options, where those
+  /// there are do not decide.
+  SolutionError Measure(const RadiositySolution& solution, int growth,
+                        const ProgressCallback& progress = {});
 
   /// The receiving points so far, what the last solution delivered there, W/m2, and the truth.
   const std::vector<Place>& Places() const { return places_; }
@@ -42,7 +44,7 @@ class ErrorPoints {
  private:
   void Draw(const SolutionLookup& lookup, const ProgressCallback& progress);
   SolutionError Compare(const SolutionLookup& lookup);
-  bool Grow(const SolutionError& error);
+  bool Grow(const SolutionError& error, int growth);
 
   const Scene& scene_;
   const SolutionErrorOptions options_;

@@ -194,7 +194,7 @@ SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& 
   if (options.points < 1) throw Error("An error needs at least one point to be measured at.");
   RequireSolutionOf(scene, solution);
   ErrorPoints points(scene, options);
-  const SolutionError error = points.Measure(solution, progress);
+  const SolutionError error = points.Measure(solution, options.growth, progress);
   if (compared) *compared = ByPart(points);
   return error;
 }

@@ -41,7 +41,7 @@ TEST(ErrorPoints, GrowWhereAMeasureIsUnsureAndALookIs) {
   SolutionErrorOptions options{500, 256, 1};
   options.growth = 4;
   ErrorPoints points(scene, options);
-  const SolutionError look = points.Look(solution), measure = points.Measure(solution);
+  const SolutionError look = points.Look(solution), measure = points.Measure(solution, 4);
   EXPECT_EQ(look.points + look.darkPoints, 500);
   EXPECT_EQ(measure.points + measure.darkPoints, 2000);
   EXPECT_EQ(measure.rms, MeasureSolutionError(scene, solution, options).rms);
