@@ -6,7 +6,6 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
-#include "Common/Core/PolygonIrradiance.h"
 #include "Common/Core/Random.h"
 #include "Common/Core/SobolPoint.h"
 #include "Radiosity/Core/LightExchange.h"
@@ -61,11 +60,8 @@ FinalGather::FinalGather(const ElementHierarchy& hierarchy, const RayScene& rayS
     : hierarchy_(hierarchy),
       rayScene_(rayScene),
       light_(light),
-      direct_(hierarchy.GetScene(), rayScene) {
-  // Where each side of each face lies in the hierarchy.
-  const size_t faces = hierarchy.GetScene().mesh.triangles.size();
-  for (std::vector<int32_t>& element : elementOfFace_) element.assign(faces, -1);
-  parts_.resize(size_t(hierarchy.Size()));
+      direct_(hierarchy.GetScene(), rayScene),
+      leaves_(hierarchy) {
   received_.resize(size_t(hierarchy.Size()) * kPlacesOfLeaf);
   sampleDirect_.resize(size_t(hierarchy.Size()));
   hasGathered_.resize(size_t(hierarchy.Size()), 0);
@@ -73,52 +69,10 @@ FinalGather::FinalGather(const ElementHierarchy& hierarchy, const RayScene& rayS
   isUnlit_.resize(size_t(hierarchy.Size()), 0);
   isBright_.resize(size_t(hierarchy.Size()), 0);
   for (int32_t index = 0; index < hierarchy.Size(); ++index) {
-    const Element& element = hierarchy[index];
-    if (element.IsLeaf()) {
-      std::fill_n(received_.begin() + int64_t(index) * kPlacesOfLeaf, kPlacesOfLeaf,
-                  ElementIrradiance(element, light->irradiance[size_t(index)]));
-    } else if (element.IsPolygon()) {
-      this->FindParts(index);
-    }
-    if (element.kind != ElementKind::Face || !(element.IsLeaf() || element.IsPolygon())) continue;
-    const ClusterNode& node = hierarchy.Tree().nodes[size_t(element.item)];
-    std::fill_n(elementOfFace_[element.side].begin() + node.firstFace, node.faceCount, index);
+    if (!hierarchy[index].IsLeaf()) continue;
+    std::fill_n(received_.begin() + int64_t(index) * kPlacesOfLeaf, kPlacesOfLeaf,
+                ElementIrradiance(hierarchy[index], light->irradiance[size_t(index)]));
   }
-}
-
-// Of each part but the first, the edge that has all earlier ones behind it.
-void FinalGather::FindParts(int32_t index) {
-  const Element& element = hierarchy_[index];
-  parts_[size_t(index)].child = element.child;
-  parts_[size_t(index)].childCount = element.childCount;
-  std::vector<Vec3f> earlier;
-  for (int32_t child = element.child; child < element.child + element.childCount; ++child) {
-    Vec3f corners[kMaximumPolygonCorners];
-    const int count = hierarchy_.PolygonCorners(hierarchy_[child], corners);
-    Part& part = parts_[size_t(child)];
-    float least = std::numeric_limits<float>::max();
-    for (int i = 0; i < count; ++i) {
-      const Vec3f inward = Normalize(Cross(element.axis, corners[(i + 1) % count] - corners[i]));
-      float farthest = std::numeric_limits<float>::lowest();
-      for (const Vec3f& p : earlier) farthest = std::max(farthest, Dot(inward, p - corners[i]));
-      if (inward == Vec3f() || farthest >= least) continue;
-      least = farthest;
-      part.normal = inward;
-      part.offset = -Dot(inward, corners[i]);
-    }
-    earlier.insert(earlier.end(), corners, corners + count);
-  }
-}
-
-int32_t FinalGather::LeafAt(int64_t face, Side side, const Vec3f& position) const {
-  int32_t index = elementOfFace_[side][size_t(face)];
-  while (index >= 0 && parts_[size_t(index)].child >= 0) {
-    const int32_t first = parts_[size_t(index)].child;
-    index = first + parts_[size_t(index)].childCount - 1;
-    const auto isOutside = [&](const Part& p) { return Dot(p.normal, position) + p.offset < 0; };
-    while (index > first && isOutside(parts_[size_t(index)])) --index;
-  }
-  return index;
 }
 
 // Puts an irradiance into the vectors that a leaf had: they keep their directions and are as long
@@ -258,10 +212,7 @@ LeafRows FinalGather::CastFromLeaves(int rays, uint64_t seed, int64_t* cast) {
   rows.fromSources.resize(rows.leaves.size());
 
   if (survey_.places.empty()) {
-    const LeafFinder leafAt = [this](int64_t face, Side side, const Vec3f& position) {
-      return this->LeafAt(face, side, position);
-    };
-    survey_ = SurveyLeaves(hierarchy_, rayScene_, rows, leafAt, HashBits(seed, kSurvey), cast);
+    survey_ = SurveyLeaves(hierarchy_, rayScene_, rows, leaves_, HashBits(seed, kSurvey), cast);
   }
   this->LightLeaves(rows, seed, cast);
   std::vector<int64_t> castBy(rows.leaves.size(), 0);
@@ -411,7 +362,7 @@ FinalGather::Seen FinalGather::Met(const RayStart& from, const Vec3f& direction,
   const Side side = Dot(hit.front, direction) < 0 ? kFront : kBack;
   const Vec3f normal = side == kFront ? hit.front : -hit.front;
   const Vec3f place = from.position + direction * hit.distance;
-  const int32_t leaf = this->LeafAt(hit.face, side, place);
+  const int32_t leaf = leaves_.Find(hit.face, side, place);
   if (leaf < 0) return seen;
   const Element& element = hierarchy_[leaf];
   if (this->IsTakenAsOne(leaf, hit, Dot(from.normal, normal), followed)) {

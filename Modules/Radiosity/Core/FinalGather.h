@@ -12,6 +12,7 @@
 #include "Radiosity/Core/DirectLight.h"
 #include "Radiosity/Core/ElementHierarchy.h"
 #include "Radiosity/Core/LeafBalance.h"
+#include "Radiosity/Core/LeafLookup.h"
 #include "Radiosity/Core/LeafSurvey.h"
 #include "Radiosity/Core/LinkRefinement.h"
 #include "Visibility/Core/RayScene.h"
@@ -93,7 +94,6 @@ class FinalGather {
                ? seen.fromSources
                : seen.fromSources + seen.part * seen.turned * received_[size_t(seen.place)];
   }
-  int32_t LeafAt(int64_t face, Side side, const Vec3f& position) const;
   GatherPoint PlaceOf(int32_t leaf, size_t sample) const;
   LeafRows CastFromLeaves(int rays, uint64_t seed, int64_t* cast);
   void LightLeaves(const LeafRows& rows, uint64_t seed, int64_t* cast);
@@ -109,22 +109,11 @@ class FinalGather {
   void CastBatch(const GatherPoint* points, int count, const BounceRays& rays, int64_t* cast,
                  const Use& use) const;
 
-  /// A triangle or patch as a part of what was cut: it lies where the plane is not negative, its
-  /// earlier siblings on the other side.
-  struct Part {
-    Vec3f normal;
-    float offset = 0;
-    int32_t child = -1, childCount = 0;  ///< its own parts; -1: it was not cut
-  };
-  void FindParts(int32_t index);
-
   const ElementHierarchy& hierarchy_;
   const RayScene& rayScene_;
   ElementLight* light_;
   const DirectLight direct_;
-  std::array<std::vector<int32_t>, 2>
-      elementOfFace_;  ///< by side: the element that holds the face,
-                       ///< a leaf or a triangle; -1 where none does
+  const LeafLookup leaves_;
   LeafSurvey survey_;  ///< as the leaves were when they first gathered
   /// Irradiance by element and place, W/m2: a part of a leaf that is hidden is dark, and what sees
   /// the leaf sees the other.
@@ -136,7 +125,6 @@ class FinalGather {
   std::vector<uint8_t>
       isBright_;             ///< by element: much of what reads it in a narrow gap would be wrong
   float meanRadiosity_ = 0;  ///< of the leaves that have gathered, what they reflect, W/m2
-  std::vector<Part> parts_;  ///< by element, of triangles and patches
 };
 
 }  // namespace lambert

@@ -45,8 +45,8 @@ int32_t NearestSample(const Element& leaf, const Vec3f& place) {
 /// What a ray from a leaf's sample meets: a place close to the leaf, or one that it sees from afar.
 class Surveyor {
  public:
-  Surveyor(const ElementHierarchy& hierarchy, const RayScene& rayScene, const LeafFinder& leafAt)
-      : hierarchy_(hierarchy), rayScene_(rayScene), leafAt_(leafAt) {}
+  Surveyor(const ElementHierarchy& hierarchy, const RayScene& rayScene, const LeafLookup& leaves)
+      : hierarchy_(hierarchy), rayScene_(rayScene), leaves_(leaves) {}
 
   /// `count` rays from each sample.
   LookAround From(int32_t leaf, int64_t count, uint64_t seed) const {
@@ -74,7 +74,7 @@ class Surveyor {
     if (hit.face < 0) return;
     const Side side = Dot(hit.front, direction) < 0 ? kFront : kBack;
     const Vec3f place = sample.position + direction * hit.distance;
-    const int32_t leaf = leafAt_(hit.face, side, place);
+    const int32_t leaf = leaves_.Find(hit.face, side, place);
     if (leaf < 0 || leaf == from) return;
 
     // Close to where the ray came from.
@@ -94,16 +94,16 @@ class Surveyor {
 
   const ElementHierarchy& hierarchy_;
   const RayScene& rayScene_;
-  const LeafFinder& leafAt_;
+  const LeafLookup& leaves_;
 };
 
 }  // namespace
 
 LeafSurvey SurveyLeaves(const ElementHierarchy& hierarchy, const RayScene& rayScene,
-                        const LeafRows& rows, const LeafFinder& leafAt, uint64_t seed,
+                        const LeafRows& rows, const LeafLookup& leaves, uint64_t seed,
                         int64_t* cast) {
   // Around every leaf.
-  const Surveyor surveyor(hierarchy, rayScene, leafAt);
+  const Surveyor surveyor(hierarchy, rayScene, leaves);
   std::vector<LookAround> looks(rows.leaves.size());
   ParallelForEach(int64_t(looks.size()), 16, [&](int64_t row) {
     const int64_t room = rows.begin[size_t(row) + 1] - rows.begin[size_t(row)];

@@ -4,12 +4,12 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "Radiosity/Core/ClosePlaces.h"
 #include "Radiosity/Core/ElementHierarchy.h"
 #include "Radiosity/Core/LeafBalance.h"
+#include "Radiosity/Core/LeafLookup.h"
 #include "Visibility/Core/RayScene.h"
 
 namespace lambert {
@@ -22,13 +22,10 @@ struct LeafSurvey {
   std::vector<ClosePlace> close;  ///< at most one a sample, of what lies closest to it
 };
 
-/// The leaf that holds a place on a side of a face; -1 where none does.
-using LeafFinder = std::function<int32_t(int64_t face, Side side, const Vec3f& position)>;
-
 /// Casts a part of the rays that `rows` has room for. Adds those cast to `cast`. The same for any
 /// number of threads.
 LeafSurvey SurveyLeaves(const ElementHierarchy& hierarchy, const RayScene& rayScene,
-                        const LeafRows& rows, const LeafFinder& leafAt, uint64_t seed,
+                        const LeafRows& rows, const LeafLookup& leaves, uint64_t seed,
                         int64_t* cast);
 
 }  // namespace lambert

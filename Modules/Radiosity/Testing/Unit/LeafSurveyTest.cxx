@@ -50,27 +50,12 @@ class LeafSurveyTest : public ::testing::Test {
   }
   LeafSurvey Survey() const {
     int64_t rays = 0;
-    const LeafFinder leafAt = [this](int64_t face, Side side, const Vec3f&) {
-      return this->LeafOf(face, side);
-    };
+    const LeafLookup leaves(*modelled_.hierarchy);
     const LeafSurvey survey =
-        SurveyLeaves(*modelled_.hierarchy, *modelled_.rayScene, rows_, leafAt, 1, &rays);
+        SurveyLeaves(*modelled_.hierarchy, *modelled_.rayScene, rows_, leaves, 1, &rays);
     EXPECT_EQ(rays, int64_t(rows_.leaves.size()) * kSamplesPerElement * 64);
     return survey;
   }
-  /// Leaves are whole triangles.
-  int32_t LeafOf(int64_t face, Side side) const {
-    for (const int32_t leaf : rows_.leaves) {
-      const Element& element = (*modelled_.hierarchy)[leaf];
-      const ClusterNode& node = modelled_.tree.nodes[size_t(element.item)];
-      if (element.side == side && face >= node.firstFace &&
-          face < node.firstFace + node.faceCount) {
-        return leaf;
-      }
-    }
-    return -1;
-  }
-
   testing::ModelledScene modelled_;
   LeafRows rows_;
 };
