@@ -1,6 +1,8 @@
 // Solutions of known content for tests of what reads them.
 #pragma once
 
+#include <algorithm>
+
 #include "Common/Testing/TestScenes.h"
 #include "Scene/Core/RadiositySolution.h"
 #include "Scene/Core/Scene.h"
@@ -18,7 +20,6 @@ inline Scene BlackFurnace() {
   CompleteTables(&scene);
   return scene;
 }
-
 
 /// A solution of `scene` in which every side of every face receives `irradiance` (W/m2, each band):
 /// each face cut into n^2 triangles, both sides or the front alone.
@@ -61,6 +62,17 @@ inline RadiositySolution FlatSolution(const Scene& scene, float irradiance, int 
     }
   }
   solution.mesh.Complete();
+  return solution;
+}
+
+/// The exact solution of a black furnace, but that one patch of 25 of its floor is 100 % too
+/// bright.
+inline RadiositySolution WithBrightPatch(const Scene& blackFurnace) {
+  RadiositySolution solution = FlatSolution(blackFurnace, 1, 6, false);
+  for (size_t i = 0; i < solution.irradiance.size(); ++i) {
+    const Vec3f& p = solution.mesh.positions[i];
+    if (p.z == 0 && std::max(p.x, p.y) < 0.3f) solution.irradiance[i] = Spectrum(2.f);
+  }
   return solution;
 }
 

@@ -33,11 +33,7 @@ TEST(ErrorPoints, AreTheSameForEverySolution) {
 TEST(ErrorPoints, GrowWhereAMeasureIsUnsureAndALookIs) {
   // One patch of 25 is 100 % too bright.
   const Scene scene = BlackFurnace();
-  RadiositySolution solution = FlatSolution(scene, 1, 6, false);
-  for (size_t i = 0; i < solution.irradiance.size(); ++i) {
-    const Vec3f& p = solution.mesh.positions[i];
-    if (p.z == 0 && std::max(p.x, p.y) < 0.3f) solution.irradiance[i] = Spectrum(2.f);
-  }
+  const RadiositySolution solution = WithBrightPatch(scene);
   SolutionErrorOptions options{500, 256, 1};
   options.growth = 4;
   ErrorPoints points(scene, options);

@@ -131,11 +131,7 @@ TEST(SolutionError, TakesMorePathsWhereNoiseHidesIt) {
 TEST(SolutionError, TakesMorePointsWhereFewDecide) {
   // One patch of 25 is 100 % too bright: rms 0.2, of which some 20 of 500 points tell.
   const Scene scene = BlackFurnace();
-  RadiositySolution solution = FlatSolution(scene, 1, 6, false);
-  for (size_t i = 0; i < solution.irradiance.size(); ++i) {
-    const Vec3f& p = solution.mesh.positions[i];
-    if (p.z == 0 && std::max(p.x, p.y) < 0.3f) solution.irradiance[i] = Spectrum(2.f);
-  }
+  const RadiositySolution solution = WithBrightPatch(scene);
   SolutionErrorOptions options{500, 256, 1};
   const SolutionError few = MeasureSolutionError(scene, solution, options);
   ASSERT_FALSE(few.IsRmsSure());
