@@ -68,12 +68,12 @@ class HierarchicalRadiosity {
   using IterationObserver = std::function<bool(const IterationRecord&)>;
 
   /// Gather, push-pull, refine with a falling threshold (thesis figure 4.10); then final gather at
-  /// the points of the mesh, in iterations of cuts, verified after the last of them and improved
-  /// until the wanted error is met or a stop comes before. Without final gather links are verified
-  /// and refined on instead. A cancelled run keeps the state of its last whole iteration;
-  /// `Statistics().stoppedBy` says why it ended. A resumed run comes to the same bits as one that
-  /// was never stopped; its observer hears of the last iteration of the state first. Throws Error
-  /// where the state cannot be saved.
+  /// the points of the mesh, in iterations of cuts until the wanted error is surely met, verified
+  /// after the last of them and improved until it is or a stop comes before. Without final gather
+  /// links are verified and refined on instead. A cancelled run keeps the state of its last whole
+  /// iteration; `Statistics().stoppedBy` says why it ended. A resumed run comes to the same bits as
+  /// one that was never stopped; its observer hears of the last iteration of the state first.
+  /// Throws Error where the state cannot be saved.
   void Run(const ProgressCallback& progress = {}, const IterationObserver& observer = {});
 
   /// Lights the scene anew after a change of its faces' reflectance, emittance or sides that emit:
