@@ -376,13 +376,15 @@ void GatheredPoints::GatherWhereItScatters(int32_t first, const SampleNeighbours
       (left > allowed ? high : low) = unit;
     }
 
-    // Those that get the same number go out together.
+    // Those that get the same number go out together; those that want the most of all get as many
+    // as there are at once, and the rest in the next round.
     std::vector<double> wanted(records_.size());
     for (size_t i = size_t(first); i < records_.size(); ++i) {
       const int had = records_[i].bounces.rays;
       const double byError = total > allowed ? growth(scatter.noise[i], low) : 1;
       const double grown = std::max(byError, scatter.growth[i]);
-      wanted[i] = had * (std::min(grown, double(options_.mostRays) / had) - 1);
+      const double most = std::min(grown, double(options_.mostRays) / had);
+      wanted[i] = std::min(had * (most - 1), double(options_.mostRays) / 2);
     }
     bool isAny = false;
     for (int count = options_.firstRays; count < options_.mostRays; count *= 2) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "SolverScenes.h"
 
@@ -19,25 +20,34 @@ void AddPoints(float x, int count, float area, std::vector<GatheredPoints::Point
   }
 }
 
+/// A small bright square above the origin, and a large lamp far from it; one light that hardly
+/// sends any, as nothing bounds what lights bring.
+class GatheredPointsTest : public ::testing::Test {
+ protected:
+  GatheredPointsTest() {
+    testing::AddQuad(&modelled_.scene.mesh, {-0.035f, -0.045f, 0.8f}, {0, 0.1f, 0}, {0.1f, 0, 0},
+                     Spectrum(0.9f));
+    testing::AddQuad(&modelled_.scene.mesh, {100, -50, 0.1f}, {0, 100, 0}, {100, 0, 0},
+                     Spectrum(0.f), Spectrum(1.f), 1, 1, 1);
+    Light faint;
+    faint.type = LightType::Point;
+    faint.position = {0, 0, 1000};
+    faint.intensity = Spectrum(1e-6f);
+    modelled_.scene.lights = {faint};
+    modelled_.Model();
+    light_.Grow(*modelled_.hierarchy);
+    for (VectorIrradiance& irradiance : light_.irradiance) irradiance.isotropic = Spectrum(160.f);
+    gather_.emplace(*modelled_.hierarchy, *modelled_.rayScene, &light_);
+  }
+
+  testing::ModelledScene modelled_;
+  ElementLight light_;
+  std::optional<FinalGather> gather_;
+};
+
 // A few points that stand for hardly any area see a small bright square, a lamp lights all others:
 // rays at those few gain next to nothing for the error, but would be seen to scatter.
-TEST(GatheredPoints, ScatterIsNotSeenWhereItCountsLittle) {
-  testing::ModelledScene modelled;
-  testing::AddQuad(&modelled.scene.mesh, {-0.035f, -0.045f, 0.8f}, {0, 0.1f, 0}, {0.1f, 0, 0},
-                   Spectrum(0.9f));
-  testing::AddQuad(&modelled.scene.mesh, {100, -50, 0.1f}, {0, 100, 0}, {100, 0, 0}, Spectrum(0.f),
-                   Spectrum(1.f), 1, 1, 1);
-  // Where a light sends rays to points nothing bounds what they bring; this one sends hardly any.
-  Light faint;
-  faint.type = LightType::Point;
-  faint.position = {0, 0, 1000};
-  faint.intensity = Spectrum(1e-6f);
-  modelled.scene.lights = {faint};
-  modelled.Model();
-  ElementLight light;
-  light.Grow(*modelled.hierarchy);
-  for (VectorIrradiance& irradiance : light.irradiance) irradiance.isotropic = Spectrum(160.f);
-  const FinalGather gather(*modelled.hierarchy, *modelled.rayScene, &light);
+TEST_F(GatheredPointsTest, ScatterIsNotSeenWhereItCountsLittle) {
   std::vector<GatheredPoints::Point> points;
   constexpr int kFew = 300;
   AddPoints(0, kFew, 1e-6f, &points);
@@ -45,7 +55,7 @@ TEST(GatheredPoints, ScatterIsNotSeenWhereItCountsLittle) {
 
   GatheredPointsOptions options;
   options.noise = 0.08;
-  GatheredPoints gathered(gather, options);
+  GatheredPoints gathered(*gather_, options);
   int64_t rays = 0;
   const std::vector<GatheredPoints::Light> lights = gathered.At(points, &rays);
   double mean = 0, square = 0;
@@ -57,6 +67,20 @@ TEST(GatheredPoints, ScatterIsNotSeenWhereItCountsLittle) {
   EXPECT_NEAR(mean, 144 * 0.0156 / kPi, 0.05);
   // The lamp gives all others 1 W/m2.
   EXPECT_LT(std::sqrt(square - mean * mean), 0.2);
+}
+
+// One ray in many meets the square, so that hardly any number of them is enough.
+TEST_F(GatheredPointsTest, ThoseThatWantTheMostRaysGetThem) {
+  std::vector<GatheredPoints::Point> points;
+  constexpr int kPoints = 300;
+  AddPoints(0, kPoints, 1, &points);
+  GatheredPointsOptions options;
+  options.mostRays = 64;
+  options.noise = 1e-3;
+  GatheredPoints gathered(*gather_, options);
+  int64_t rays = 0;
+  gathered.At(points, &rays);
+  EXPECT_GE(rays, options.mostRays / 2 * kPoints);
 }
 
 }  // namespace
