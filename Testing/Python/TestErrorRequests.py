@@ -24,7 +24,7 @@ for scene in SCENES:
             counting = report["error"]["bounded"]
         assert counting <= 1.2 * error, (scene, error, report["error"])
     # The same points and paths measure all three, so that what they miss cancels. Where the first solution that can be shown is
-    # far better than both requests already, nothing is refined between them.
+    # far better than both requests already, less than half of the smaller one, nothing is refined between them.
     rms = [error["rms"] for error in measured]
     for (coarse, fine), asked in zip(zip(rms, rms[1:]), (0.1, 0.05)):
-        assert coarse > fine > 0 or coarse < 0.4 * asked, (scene, rms)
+        assert coarse > fine > 0 or coarse < 0.5 * asked, (scene, rms)

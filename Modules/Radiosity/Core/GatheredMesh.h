@@ -37,9 +37,10 @@ class GatheredMesh {
 
   /// Light at the points that have none yet.
   void GatherAtPoints(int64_t* rays, const ProgressCallback& progress);
-  /// More rays at the points that have light, until `noise` is left.
-  void Improve(double noise, int64_t* rays, const ProgressCallback& progress) {
-    gathered_.Improve(noise, rays, progress);
+  /// More rays at the points that have light, as `options` ask for.
+  void Improve(const GatheredPointsOptions& options, int64_t* rays,
+               const ProgressCallback& progress) {
+    gathered_.Improve(options, rays, progress);
   }
   /// How far interpolation was off where triangles were cut.
   void LearnNonlinearity();

@@ -22,8 +22,6 @@ constexpr double kUnknownClear = 0.25;
 /// Half shadow that scatters so much as a relative variance a ray gets the wanted number of rays;
 /// any other one a multiple between these.
 constexpr double kUsualScatter = 0.25, kLeastByScatter = 0.25, kMostByScatter = 8;
-/// Rays to emitters that a point may be given at once, where it is asked for more.
-constexpr int kMostDirectRays = 64;
 /// Neighbours whose shadows tell of a point's own, where there are at least the first number: what
 /// fewer find in narrow places may all be chance.
 constexpr int kLeastShadowNeighbours = 8, kShadowNeighbours = 12;
@@ -68,7 +66,7 @@ std::vector<GatheredPoints::Light> GatheredPoints::At(const std::vector<Point>& 
     this->GatherNew(first, rays, progress);
     this->SampleAll();
     const SampleNeighbours neighbours(samples_, first, &gather_.Rays(), rays);
-    this->LookIntoPenumbrae(first, neighbours, rays);
+    this->LookIntoPenumbrae(first, Which::All, neighbours, rays);
     this->ShareDirect(first, neighbours);
     this->GatherWhereItScatters(first, neighbours, rays, progress);
     samples_ = std::vector<IrradianceSample>();
@@ -193,8 +191,9 @@ void GatheredPoints::CastMoreToEmitters(const std::vector<int>& more, int32_t fi
   for (const int64_t c : cast) *rays += c;
 }
 
-void GatheredPoints::LookIntoPenumbrae(int32_t first, const SampleNeighbours& neighbours,
-                                       int64_t* rays) {
+// In half shadow, and where rays pick from groups of emitters, as many as are wanted.
+void GatheredPoints::LookIntoPenumbrae(int32_t first, Which which,
+                                       const SampleNeighbours& neighbours, int64_t* rays) {
   double area = 0, mean = 0;
   for (const Record& record : records_) {
     area += double(record.at.area) / double(records_.size());
@@ -205,6 +204,7 @@ void GatheredPoints::LookIntoPenumbrae(int32_t first, const SampleNeighbours& ne
   ParallelForEach(int64_t(more.size()), 256, [&](int64_t i) {
     const int32_t index = first + int32_t(i);
     const Record& record = records_[size_t(index)];
+    if (which == Which::WithoutProbes && record.isProbe) return;
     const bool isPartial = this->IsInPenumbra(index, neighbours);
     const double scatter = this->ScatterOfShadow(index, neighbours, mean) / kUsualScatter;
     int wanted = 0;
@@ -214,24 +214,22 @@ void GatheredPoints::LookIntoPenumbrae(int32_t first, const SampleNeighbours& ne
     }
     if (isPartial || record.direct.isScattered) wanted += options_.directRays;
     const double part = area > 0 ? double(record.at.area) / area : 1;
-    more[size_t(i)] = int(wanted * std::min(kMostByArea, std::max(1.0, part)));
+    const int inAll = int(wanted * std::min(kMostByArea, std::max(1.0, part)));
+    more[size_t(i)] = std::max(0, inAll - record.directRays);
   });
   this->CastMoreToEmitters(more, first, rays);
 }
 
-void GatheredPoints::Improve(double noise, int64_t* rays, const ProgressCallback& progress) {
-  options_.noise = noise;
+void GatheredPoints::Improve(const GatheredPointsOptions& options, int64_t* rays,
+                             const ProgressCallback& progress) {
+  const uint64_t seed = options_.seed;
+  options_ = options;
+  options_.seed = seed;
   if (records_.empty()) return;
+  ++improved_;
   this->SampleAll();
   const SampleNeighbours neighbours(samples_, 0, &gather_.Rays(), rays);
-  std::vector<int> more(records_.size(), 0);
-  ParallelForEach(int64_t(more.size()), 256, [&](int64_t i) {
-    const Record& record = records_[size_t(i)];
-    if (record.isProbe) return;
-    const bool isUnsure = record.direct.isScattered || this->IsInPenumbra(int32_t(i), neighbours);
-    if (isUnsure) more[size_t(i)] = std::min(record.directRays, kMostDirectRays);
-  });
-  this->CastMoreToEmitters(more, 0, rays);
+  this->LookIntoPenumbrae(0, Which::WithoutProbes, neighbours, rays);
   this->ShareDirect(0, neighbours);
   this->GatherWhereItScatters(0, neighbours, rays, progress);
   samples_ = std::vector<IrradianceSample>();
@@ -399,7 +397,8 @@ void GatheredPoints::GatherWhereItScatters(int32_t first, const SampleNeighbours
       isAny = true;
       BounceRays bounce;
       bounce.count = count;
-      bounce.seed = HashBits(HashBits(options_.seed, records_.size()), uint64_t(count + round));
+      bounce.seed =
+          HashBits(HashBits(options_.seed, records_.size() + improved_), uint64_t(count + round));
       const std::vector<BounceSum> sums = gather_.Bounces(places, bounce, rays, progress);
       for (size_t k = 0; k < chosen.size(); ++k) {
         Record& record = records_[size_t(chosen[k])];

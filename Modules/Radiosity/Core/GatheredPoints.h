@@ -45,11 +45,11 @@ class GatheredPoints {
   /// Cancelled.
   std::vector<Light> At(const std::vector<Point>& points, int64_t* rays,
                         const ProgressCallback& progress = {});
-  /// More rays for the points asked so far, without probes: those whose neighbours are partly in
-  /// shadow get as many to emitters as they had, and the scatter of the others falls to `noise`, a
-  /// relative RMS error, (0, 1]; that goes for points asked later too. Adds the rays cast to
-  /// `rays`. Throws Cancelled.
-  void Improve(double noise, int64_t* rays, const ProgressCallback& progress = {});
+  /// More rays for the points asked so far, without probes, until they have what `options` ask for;
+  /// those go for points asked later too, but for the seed. Adds the rays cast to `rays`. Throws
+  /// Cancelled.
+  void Improve(const GatheredPointsOptions& options, int64_t* rays,
+               const ProgressCallback& progress = {});
 
  private:
   struct Record {
@@ -71,7 +71,10 @@ class GatheredPoints {
   bool IsInPenumbra(int32_t record, const SampleNeighbours& neighbours) const;
   double ScatterOfShadow(int32_t record, const SampleNeighbours& neighbours, double mean) const;
   void CastMoreToEmitters(const std::vector<int>& more, int32_t first, int64_t* rays);
-  void LookIntoPenumbrae(int32_t first, const SampleNeighbours& neighbours, int64_t* rays);
+  /// Which points look around once more.
+  enum class Which { All, WithoutProbes };
+  void LookIntoPenumbrae(int32_t first, Which which, const SampleNeighbours& neighbours,
+                         int64_t* rays);
   void ShareDirect(int32_t first, const SampleNeighbours& neighbours);
   void Share(int32_t first, const SampleNeighbours& neighbours);
   void GatherWhereItScatters(int32_t first, const SampleNeighbours& neighbours, int64_t* rays,
@@ -94,6 +97,7 @@ class GatheredPoints {
   /// was free; -1 for a free one. A power of two of them, at most half of them taken.
   std::vector<int32_t> recordOfKey_;
   int64_t deliveredCount_ = 0;  ///< records that are no probes
+  uint64_t improved_ = 0;       ///< so many times
 };
 
 /// By how much a squared error (W/m2)^2 at a place with irradiance `light` (W/m2, norm over bands)

@@ -79,7 +79,7 @@ struct GatheredSolution::Implementation {
   std::unique_ptr<GatheredMesh> mesh;
   int leafRays;  ///< of the rounds that leaves have the mean of
   const uint64_t seed;
-  uint64_t calls = 0;  ///< of Gather
+  uint64_t improved = 0;  ///< so many times
   int64_t* rays;
 };
 
@@ -90,16 +90,23 @@ GatheredSolution::GatheredSolution(ElementHierarchy* hierarchy, ElementLight* li
 
 GatheredSolution::~GatheredSolution() = default;
 
-void GatheredSolution::Gather(double noise, const ProgressCallback& progress) {
+void GatheredSolution::Gather(const ProgressCallback& progress) {
   Implementation& self = *implementation_;
-  if (self.calls++ > 0 && self.leafRays > 0) {
-    // Half as many as they had, joined to them.
+  self.mesh->GatherAtPoints(self.rays, progress);
+}
+
+void GatheredSolution::Improve(const GatheredPointsOptions& options,
+                               const ProgressCallback& progress) {
+  // Half as many as they had, joined to them.
+  Implementation& self = *implementation_;
+  const uint64_t improved = ++self.improved;
+  if (self.leafRays > 0) {
     const int more = (self.leafRays + 1) / 2;
     self.leafRays += more;
-    self.gather.GatherAtLeaves(more, double(more) / self.leafRays, HashBits(self.seed, self.calls),
-                               self.rays);
+    self.gather.GatherAtLeaves(more, double(more) / self.leafRays,
+                               HashBits(self.seed, improved + 1), self.rays);
   }
-  self.mesh->Improve(noise, self.rays, progress);
+  self.mesh->Improve(options, self.rays, progress);
   self.mesh->GatherAtPoints(self.rays, progress);
 }
 

@@ -30,7 +30,7 @@ GatheredSolutionOptions GatherFor(double error);
 double PredictGatherSeconds(const ElementHierarchy& hierarchy, const RayScene& rayScene,
                             const ElementLight& light, double error);
 
-/// Construct, Gather, Cut as often as wanted, Deliver.
+/// Construct, Gather, Cut as often as wanted, Deliver; or Improve, and Cut again.
 class GatheredSolution {
  public:
   /// Gathers at the leaves, so that what points see there is not what links made of it; `light`
@@ -40,9 +40,11 @@ class GatheredSolution {
                    int64_t* rays);
   ~GatheredSolution();
 
-  /// Gathers at the points until rays scatter by about `noise`, a relative RMS error, (0, 1].
-  /// Called again, leaves get more rays first, and points that have light do. Throws Cancelled.
-  void Gather(double noise, const ProgressCallback& progress = {});
+  /// Gathers at the points, once. Throws Cancelled.
+  void Gather(const ProgressCallback& progress = {});
+  /// Half as many rays as they had at the leaves, then what points that have light lack of what
+  /// `options` ask for, as those to come will have. Throws Cancelled.
+  void Improve(const GatheredPointsOptions& options, const ProgressCallback& progress = {});
   /// Cuts triangles where interpolation leaves more than about `error`, a relative RMS error, (0,
   /// 1], and gathers at their points; false where it leaves no more, or nothing can be cut. Throws
   /// Cancelled.

@@ -59,7 +59,9 @@ double LinkProgress(const HierarchicalRadiosityOptions& options, double done, in
 }
 
 /// Gathers, each with its rounds of cuts, before it is said that the error cannot be met.
-constexpr int kMostGathers = 4;
+constexpr int kMostGathers = 5;
+/// The first of them, with the fewest rounds, aims at so many times the wanted error.
+constexpr double kFirstAim = 1.4;
 /// Attempts in a row that gain too little before a run gives up; a single iteration of links may
 /// gain nothing and the next one much.
 constexpr int kGatherPatience = 1, kLinkPatience = 2;
@@ -190,6 +192,9 @@ struct HierarchicalRadiosity::Implementation {
   RadiositySolution Reconstruct();
   RadiositySolution LightOfLinks();
   bool EndsHere(bool goOn);
+  bool GatherRound(std::optional<GatheredSolution>* solution, double aim, int round,
+                   const ProgressCallback& progress);
+  bool EndsAfterGathering(bool isFirst, double seconds, const IterationObserver& observer);
   bool IsSurelyMet(Verification* verification);
   bool EndsVerified(Verification* verification);
   bool HasTimeFor(double seconds) const {
@@ -385,65 +390,95 @@ bool HierarchicalRadiosity::Implementation::EndsVerified(Verification* verificat
   return !statistics.stoppedBy.empty();
 }
 
+// The border of an iteration of the gather, which took so long; true where the run ends there.
+bool HierarchicalRadiosity::Implementation::EndsAfterGathering(bool isFirst, double seconds,
+                                                               const IterationObserver& observer) {
+  IterationRecord record = statistics.history.back();
+  ++record.iteration;
+  record.seconds = this->Seconds();
+  record.rays = network.rays;
+  record.error = -1;
+  statistics.history.push_back(record);
+  const bool goOn = !observer || observer(record);
+  if (this->EndsHere(goOn)) return true;
+  if (!this->HasTimeFor((isFirst ? kFirstRound : kRoundGrowth) * seconds)) {
+    statistics.stoppedBy = "time";
+  }
+  if (!memory.HasRoomForCuts(*delivered)) statistics.stoppedBy = "memory";
+  return !statistics.stoppedBy.empty();
+}
+
+// Gathers at the points in round 0, and cuts triangles in every other; false where nothing is left
+// to cut. Throws Cancelled.
+bool HierarchicalRadiosity::Implementation::GatherRound(std::optional<GatheredSolution>* solution,
+                                                        double aim, int round,
+                                                        const ProgressCallback& progress) {
+  const GatheredSolutionOptions wanted = GatherFor(aim);
+  const bool isFirst = !solution->has_value();
+  if (isFirst) {
+    statistics.stages.Time("gather at leaves", [&] {
+      solution->emplace(&hierarchy, &light, rayScene, litSides, wanted, &network.rays);
+    });
+  }
+  GatheredSolution& gathered = **solution;
+  const bool isDone =
+      round > 0 ? statistics.stages.Time(
+                      "cuts", [&] { return gathered.Cut(kInterpolationShare * aim, progress); })
+                : statistics.stages.Time("gather at points", [&] {
+                    isFirst ? gathered.Gather(progress) : gathered.Improve(wanted.points, progress);
+                    return true;
+                  });
+  if (isDone) delivered = gathered.Deliver();
+  return isDone;
+}
+
 // A final gather, on a finer and finer mesh, until the error that was asked for is verified. Each
-// gather and each round of cuts is an iteration.
+// gather and each round of cuts is an iteration. The first gather only aims near what is asked for,
+// and often gives it all the same: a look tells.
 void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
                                            const IterationObserver& observer) {
   Implementation& self = *implementation_;
-  SolverStatistics& statistics = self.statistics;
-  const int rounds = self.options.cutsTriangles ? kCuttingRounds : 0;
-  double aim = self.options.error;
+  const double wanted = self.options.error;
+  const bool looks = self.options.cutsTriangles && self.options.verificationPoints > 0;
+  double aim = looks ? kFirstAim * wanted : wanted;
   Verification verification(self.scene, self.options, kGatherPatience);
   std::optional<GatheredSolution> solution;
+  int cuts = 0;
   for (int gather = 1; gather <= kMostGathers; ++gather) {
-    for (int round = 0; round <= rounds; ++round) {
+    const bool isTry = looks && gather == 1;
+    const int rounds = !self.options.cutsTriangles ? 0 : isTry ? kLeastRounds : kCuttingRounds;
+    bool isSurelyMet = false;
+    for (int round = 0; round <= rounds && !isSurelyMet; ++round) {
       const Timer iterationTimer;
       const ProgressCallback part = [&](double fraction, const char* stage) {
         const double done = (gather - 1 + (round + fraction) / (rounds + 1)) / kMostGathers;
         return Report(progress, 1 - kGatherShare * (1 - std::min(1.0, done)), stage);
       };
+      bool isDone = false;
       try {
-        if (!solution) {
-          statistics.stages.Time("gather at leaves", [&] {
-            solution.emplace(&self.hierarchy, &self.light, self.rayScene, self.litSides,
-                             GatherFor(self.options.error), &self.network.rays);
-          });
-        }
-        if (round == 0) {
-          statistics.stages.Time("gather at points",
-                                 [&] { solution->Gather(NoiseFor(aim), part); });
-        } else if (!statistics.stages.Time(
-                       "cuts", [&] { return solution->Cut(kInterpolationShare * aim, part); })) {
-          break;
-        }
-        self.delivered = solution->Deliver();
+        isDone = self.GatherRound(&solution, aim, round, part);
       } catch (const Cancelled&) {
-        statistics.stoppedBy = "interrupt";
+        self.statistics.stoppedBy = "interrupt";
         return;
       }
-
-      // The border of an iteration.
-      IterationRecord record = statistics.history.back();
-      ++record.iteration;
-      record.seconds = self.Seconds();
-      record.rays = self.network.rays;
-      record.error = -1;
-      statistics.history.push_back(record);
-      const bool goOn = !observer || observer(record);
-      const double next = (round == 0 ? kFirstRound : kRoundGrowth) * iterationTimer.Seconds();
-      if (self.EndsHere(goOn)) return;
-      if (!self.HasTimeFor(next)) statistics.stoppedBy = "time";
-      if (!self.memory.HasRoomForCuts(*self.delivered)) statistics.stoppedBy = "memory";
-      if (!statistics.stoppedBy.empty()) return;
-      if (round >= kLeastRounds && round < rounds && self.IsSurelyMet(&verification)) break;
+      if (isDone && self.EndsAfterGathering(round == 0, iterationTimer.Seconds(), observer)) return;
+      if (isDone && round > 0) ++cuts;
+      const bool isEnough = cuts >= kLeastRounds || !isDone;
+      const bool isLast = !isTry && (round == rounds || !isDone);
+      isSurelyMet = isEnough && !isLast && self.IsSurelyMet(&verification);
+      if (!isDone) break;
+    }
+    if (isTry && !isSurelyMet) {
+      aim = wanted;
+      continue;
     }
     if (self.EndsVerified(&verification)) return;
     // More rays take away no more than their scatter.
     const double scatter = NoiseFor(aim), error = verification.Error();
-    if (solution->IsFull() && std::hypot(self.options.error, scatter) < error) break;
-    aim *= std::min(0.8, std::max(0.35, kAimBelow * self.options.error / verification.Error()));
+    if (solution->IsFull() && std::hypot(wanted, scatter) < error) break;
+    aim *= std::min(0.8, std::max(0.35, kAimBelow * wanted / error));
   }
-  statistics.stoppedBy = "floor";
+  self.statistics.stoppedBy = "floor";
 }
 
 bool HierarchicalRadiosity::Relight() {

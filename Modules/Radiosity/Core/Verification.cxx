@@ -26,28 +26,39 @@ ErrorPoints& Verification::Points() {
   verification.points = options_.verificationPoints;
   verification.samples = kVerificationSamples;
   verification.seed = HashBits(0x76657269u, uint64_t(attempts_) + 1);
-  verification.enough = kVerifiedBelow * options_.error;
   return points_.emplace(scene_, verification);
 }
 
 double Verification::Measure(const RadiositySolution& solution) {
   const int growth = options_.timeLimit > 0 ? 1 : kVerificationGrowth;
-  this->Note(this->Points().Measure(solution, growth).Counting());
+  const auto isMet = [&](const SolutionError& e) { return e.Counting() <= this->Below(); };
+  this->Note(this->Points().Measure(solution, growth, isMet).Counting());
   points_.reset();
   return error_;
 }
 
-// Where only the width of its interval keeps the rms from counting, more points may decide: they
-// take less time than another round.
+// More points take less time than another round, and tell of all that follow. Where the interval of
+// the rms leaves it open there are some more; where only its width keeps the rms from counting, as
+// many as in the end.
 bool Verification::IsSurelyMet(const RadiositySolution& solution) {
-  const double below = kVerifiedBelow * options_.error;
-  SolutionError error = this->Points().Look(solution);
-  if (error.Counting() > below && error.rmsHigh <= options_.error && !(options_.timeLimit > 0)) {
-    error = this->Points().Measure(solution, kLookGrowth);
+  const auto isMet = [&](const SolutionError& e) { return e.rmsHigh <= options_.error; };
+  const auto isSure = [&](const SolutionError& e) {
+    return isMet(e) && e.Counting() <= this->Below();
+  };
+  const auto isDecided = [&](const SolutionError& e) {
+    return isMet(e) || e.rmsLow > this->Below();
+  };
+  const bool hasTime = !(options_.timeLimit > 0);
+  SolutionError error = this->Points().Measure(solution, hasTime ? kLookGrowth : 1, isDecided);
+  if (hasTime && isMet(error)) {
+    const auto isKnown = [&](const SolutionError& e) { return isSure(e) || !isMet(e); };
+    error = this->Points().Measure(solution, kVerificationGrowth, isKnown);
   }
   error_ = error.Counting();
-  return error_ <= below && error.rmsHigh <= options_.error;
+  return isSure(error);
 }
+
+double Verification::Below() const { return kVerifiedBelow * options_.error; }
 
 void Verification::Recall(const std::vector<IterationRecord>& history) {
   for (const IterationRecord& record : history) {
@@ -56,7 +67,7 @@ void Verification::Recall(const std::vector<IterationRecord>& history) {
 }
 
 std::string Verification::Verdict() const {
-  if (error_ <= kVerifiedBelow * options_.error) return "error";
+  if (error_ <= this->Below()) return "error";
   return idle_ >= patience_ ? "floor" : "";
 }
 

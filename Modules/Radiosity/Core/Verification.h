@@ -34,6 +34,7 @@ class Verification {
 
  private:
   ErrorPoints& Points();
+  double Below() const;  ///< where an error counts as met
   void Note(double error);
 
   const Scene& scene_;

@@ -113,7 +113,6 @@ SolutionError ErrorPoints::Compare(const SolutionLookup& lookup) {
 // of them decide; false where neither would help, or there are as many as there may be.
 bool ErrorPoints::Grow(const SolutionError& error, int growth) {
   const int64_t mostPaths = int64_t(growth) * options_.points * options_.samples;
-  if (options_.enough > 0 && error.Counting() <= options_.enough) return false;
   draw_.seed = HashBits(options_.seed, batches_);
   if (error.noise > error.Counting() && 4 * draw_.samples * drawn_ <= mostPaths) {
     draw_.samples *= 4;
@@ -126,15 +125,8 @@ bool ErrorPoints::Grow(const SolutionError& error, int growth) {
   return !error.IsRmsSure() && 2 * draw_.samples * drawn_ <= mostPaths;
 }
 
-SolutionError ErrorPoints::Look(const RadiositySolution& solution,
-                                const ProgressCallback& progress) {
-  const SolutionLookup lookup(solution, scene_.mesh.FaceCount());
-  if (batches_ == 0) this->Draw(lookup, progress);
-  return this->Compare(lookup);
-}
-
 SolutionError ErrorPoints::Measure(const RadiositySolution& solution, int growth,
-                                   const ProgressCallback& progress) {
+                                   const Judge& isEnough, const ProgressCallback& progress) {
   const SolutionLookup lookup(solution, scene_.mesh.FaceCount());
   double done = 0;
   const ProgressCallback half = [&](double fraction, const char* stage) {
@@ -142,7 +134,7 @@ SolutionError ErrorPoints::Measure(const RadiositySolution& solution, int growth
   };
   if (batches_ == 0) this->Draw(lookup, half);
   SolutionError error = this->Compare(lookup);
-  while (this->Grow(error, growth)) {
+  while (!(isEnough && isEnough(error)) && this->Grow(error, growth)) {
     done += (1 - done) / 2;
     this->Draw(lookup, half);
     error = this->Compare(lookup);

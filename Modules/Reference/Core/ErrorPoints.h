@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "Common/Core/Progress.h"
@@ -13,7 +14,7 @@ namespace lambert {
 
 class SolutionLookup;
 
-/// Construct, then Look at or Measure one solution after the other. All have to model the same
+/// Construct, then Measure one solution after the other. All have to model the same
 /// sides of the faces: what is dark on those that the first leaves out is not asked again.
 class ErrorPoints {
  public:
@@ -24,17 +25,18 @@ class ErrorPoints {
     ReceiverPoint receiver;
   };
 
-  /// `scene` by reference. `options.growth` does not count.
+  /// What tells that an error is known well enough.
+  using Judge = std::function<bool(const SolutionError&)>;
+
+  /// `scene` by reference. `options.growth` and `options.enough` do not count.
   ErrorPoints(const Scene& scene, const SolutionErrorOptions& options)
       : scene_(scene), options_(options), draw_(options) {}
 
-  /// The figures of `solution` at the points there are, at first `options.points`: however unsure
-  /// they are. Throws Cancelled.
-  SolutionError Look(const RadiositySolution& solution, const ProgressCallback& progress = {});
-  /// The same, with more paths or points, up to `growth` times those of the options, where those
-  /// there are do not decide.
-  SolutionError Measure(const RadiositySolution& solution, int growth,
-                        const ProgressCallback& progress = {});
+  /// The figures of `solution` at the points there are, at first `options.points`; with more paths
+  /// or points, up to `growth` times those of the options, where they do not decide, until the
+  /// judge, if there is one, is content. Throws Cancelled.
+  SolutionError Measure(const RadiositySolution& solution, int growth = 1,
+                        const Judge& isEnough = {}, const ProgressCallback& progress = {});
 
   /// The receiving points so far, what the last solution delivered there, W/m2, and the truth.
   const std::vector<Place>& Places() const { return places_; }

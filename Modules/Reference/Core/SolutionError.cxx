@@ -194,7 +194,10 @@ SolutionError MeasureSolutionError(const Scene& scene, const RadiositySolution& 
   if (options.points < 1) throw Error("An error needs at least one point to be measured at.");
   RequireSolutionOf(scene, solution);
   ErrorPoints points(scene, options);
-  const SolutionError error = points.Measure(solution, options.growth, progress);
+  const auto isEnough = [&](const SolutionError& e) {
+    return options.enough > 0 && e.Counting() <= options.enough;
+  };
+  const SolutionError error = points.Measure(solution, options.growth, isEnough, progress);
   if (compared) *compared = ByPart(points);
   return error;
 }

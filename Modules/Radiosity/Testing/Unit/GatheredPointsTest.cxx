@@ -83,5 +83,32 @@ TEST_F(GatheredPointsTest, ThoseThatWantTheMostRaysGetThem) {
   EXPECT_GE(rays, options.mostRays / 2 * kPoints);
 }
 
+TEST_F(GatheredPointsTest, AreImprovedByTheRaysThatTheyLack) {
+  std::vector<GatheredPoints::Point> points;
+  constexpr int kPoints = 300;
+  AddPoints(0, kPoints, 1, &points);
+  GatheredPointsOptions loose;
+  loose.noise = 1;
+  GatheredPoints gathered(*gather_, loose);
+  int64_t rays = 0;
+  const auto scatter = [&] {
+    double sum = 0;
+    for (const auto& light : gathered.At(points, &rays)) sum += double(light.variance);
+    return sum;
+  };
+  const double before = scatter();
+  GatheredPointsOptions tight = loose;
+  tight.noise = 1e-3;
+  const int64_t raysBefore = rays;
+  gathered.Improve(tight, &rays);
+  EXPECT_GE(rays - raysBefore, tight.mostRays / 2 * kPoints);
+  EXPECT_LT(scatter(), 0.25 * before);
+
+  // They lack nothing more.
+  const int64_t raysAfter = rays;
+  gathered.Improve(tight, &rays);
+  EXPECT_LT(rays - raysAfter, (raysAfter - raysBefore) / 100);
+}
+
 }  // namespace
 }  // namespace lambert

@@ -188,6 +188,24 @@ TEST(HierarchicalRadiosity, LinksAloneAreRefinedOnWhereVerificationFails) {
   EXPECT_EQ(unverified.statistics.stoppedBy, "error");
 }
 
+// The first gather aims at more than is asked for; where a look finds that it is enough, no round
+// follows. What nobody looks at is gathered for the request at once.
+TEST(HierarchicalRadiosity, EndsWhereALookIsSure) {
+  HierarchicalRadiosityOptions options;
+  options.error = 0.1;
+  const Solved looked = Solve(testing::DataScene("CornellBox"), options);
+  options.verificationPoints = 0;
+  const Solved unseen = Solve(testing::DataScene("CornellBox"), options);
+  EXPECT_EQ(looked.statistics.stoppedBy, "error");
+  EXPECT_EQ(unseen.statistics.stoppedBy, "error");
+  EXPECT_LE(looked.statistics.history.back().error, options.error);
+  EXPECT_EQ(unseen.statistics.history.back().error, -1);
+  EXPECT_LT(looked.solution.inputFaceId.size(), unseen.solution.inputFaceId.size());
+  SolutionErrorOptions verification;
+  verification.points = 8000;
+  EXPECT_LE(MeasureSolutionError(looked.scene, looked.solution, verification).Counting(), 0.1);
+}
+
 // What gathers finds its place among four parts as among two: read at wrong ones, half a shadow is
 // lit, and the request was never met (0.045).
 TEST(HierarchicalRadiosity, RegularPatchesAreGatheredFromToo) {

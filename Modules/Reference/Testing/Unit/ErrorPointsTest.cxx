@@ -16,9 +16,9 @@ TEST(ErrorPoints, AreTheSameForEverySolution) {
                           second = FlatSolution(scene, 1.02f, 3, false);
   const SolutionErrorOptions options{500, 256, 1};
   ErrorPoints points(scene, options);
-  points.Look(first);
+  points.Measure(first);
   const std::vector<IrradianceEstimate> truth = points.Truth();
-  const SolutionError error = points.Look(second);
+  const SolutionError error = points.Measure(second);
 
   ASSERT_EQ(points.Truth().size(), truth.size());
   for (size_t i = 0; i < truth.size(); ++i) {
@@ -30,17 +30,20 @@ TEST(ErrorPoints, AreTheSameForEverySolution) {
   EXPECT_EQ(error.darkPoints, fresh.darkPoints);
 }
 
-TEST(ErrorPoints, GrowWhereAMeasureIsUnsureAndALookIs) {
-  // One patch of 25 is 100 % too bright.
+// One patch of 25 is 100 % too bright.
+TEST(ErrorPoints, GrowUntilTheJudgeIsContent) {
   const Scene scene = BlackFurnace();
   const RadiositySolution solution = WithBrightPatch(scene);
   SolutionErrorOptions options{500, 256, 1};
-  options.growth = 4;
   ErrorPoints points(scene, options);
-  const SolutionError look = points.Look(solution), measure = points.Measure(solution, 4);
-  EXPECT_EQ(look.points + look.darkPoints, 500);
-  EXPECT_EQ(measure.points + measure.darkPoints, 2000);
-  EXPECT_EQ(measure.rms, MeasureSolutionError(scene, solution, options).rms);
+  const auto drawn = [](const SolutionError& e) { return e.points + e.darkPoints; };
+  EXPECT_EQ(drawn(points.Measure(solution)), 500);
+  const auto isContent = [&](const SolutionError& e) { return drawn(e) >= 1000; };
+  EXPECT_EQ(drawn(points.Measure(solution, 4, isContent)), 1000);
+  const SolutionError unsure = points.Measure(solution, 4);
+  EXPECT_EQ(drawn(unsure), 2000);
+  options.growth = 4;
+  EXPECT_EQ(unsure.rms, MeasureSolutionError(scene, solution, options).rms);
 }
 
 }  // namespace
