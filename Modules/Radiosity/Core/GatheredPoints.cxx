@@ -13,7 +13,7 @@ namespace {
 
 /// A point tells of places as far as this part of the harmonic mean distance of what it sees.
 constexpr float kReach = 0.5f;
-/// Rays to emitters that every point casts at first.
+/// Rays to emitters that every point casts at first; fewer do not know their groups.
 constexpr int kFirstDirectRays = 4;
 /// Points that stand for more area than the mean get up to this many times the rays to emitters.
 constexpr double kMostByArea = 16;
@@ -214,8 +214,9 @@ void GatheredPoints::LookIntoPenumbrae(int32_t first, Which which,
     }
     if (isPartial || record.direct.isScattered) wanted += options_.directRays;
     const double part = area > 0 ? double(record.at.area) / area : 1;
-    const int inAll = int(wanted * std::min(kMostByArea, std::max(1.0, part)));
-    more[size_t(i)] = std::max(0, inAll - record.directRays);
+    const int lacking =
+        int(wanted * std::min(kMostByArea, std::max(1.0, part))) - record.directRays;
+    if (lacking >= kFirstDirectRays) more[size_t(i)] = lacking;
   });
   this->CastMoreToEmitters(more, first, rays);
 }
@@ -385,7 +386,7 @@ void GatheredPoints::GatherWhereItScatters(int32_t first, const SampleNeighbours
       wanted[i] = std::min(had * (most - 1), double(options_.mostRays) / 2);
     }
     bool isAny = false;
-    for (int count = options_.firstRays; count < options_.mostRays; count *= 2) {
+    for (int count = fewestMore_; count < options_.mostRays; count *= 2) {
       std::vector<int32_t> chosen;
       std::vector<GatherPoint> places;
       for (size_t i = size_t(first); i < records_.size(); ++i) {

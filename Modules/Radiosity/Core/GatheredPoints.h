@@ -38,16 +38,19 @@ class GatheredPoints {
 
   /// By reference.
   GatheredPoints(const FinalGather& gather, const GatheredPointsOptions& options)
-      : gather_(gather), options_(options), brightest_(gather.Brightest()) {}
+      : gather_(gather),
+        options_(options),
+        fewestMore_(options.firstRays),
+        brightest_(gather.Brightest()) {}
 
   /// Light at every point; those asked before are as they were.
   /// `areas` of the points count as theirs from now on. Adds the rays cast to `rays`. Throws
   /// Cancelled.
   std::vector<Light> At(const std::vector<Point>& points, int64_t* rays,
                         const ProgressCallback& progress = {});
-  /// More rays for the points asked so far, without probes, until they have what `options` ask for;
-  /// those go for points asked later too, but for the seed. Adds the rays cast to `rays`. Throws
-  /// Cancelled.
+  /// More rays for the points asked so far, without probes: to emitters until they have what
+  /// `options` ask for, over the hemisphere until they scatter by no more. The options go for
+  /// points asked later too, but for the seed. Adds the rays cast to `rays`. Throws Cancelled.
   void Improve(const GatheredPointsOptions& options, int64_t* rays,
                const ProgressCallback& progress = {});
 
@@ -89,6 +92,7 @@ class GatheredPoints {
 
   const FinalGather& gather_;
   GatheredPointsOptions options_;
+  const int fewestMore_;  ///< rays over the hemisphere that a point may get beyond the first ones
   const Spectrum brightest_;
   std::vector<Record> records_;               ///< in the order in which they were asked for
   std::vector<IrradianceSample> samples_;     ///< of the records, while light is gathered

@@ -59,9 +59,16 @@ double LinkProgress(const HierarchicalRadiosityOptions& options, double done, in
 }
 
 /// Gathers, each with its rounds of cuts, before it is said that the error cannot be met.
-constexpr int kMostGathers = 5;
-/// The first of them, with the fewest rounds, aims at so many times the wanted error.
-constexpr double kFirstAim = 1.4;
+constexpr int kMostGathers = 4;
+/// One before them, with the fewest rounds, aims at so many times the wanted error.
+constexpr double kTriedAim = 1.4;
+/// Whether there is one: where somebody looks at what it gives, and rounds may follow.
+bool HasTry(const HierarchicalRadiosityOptions& options) {
+  return options.cutsTriangles && options.verificationPoints > 0;
+}
+double FirstAim(const HierarchicalRadiosityOptions& options) {
+  return HasTry(options) ? std::min(1.0, kTriedAim * options.error) : options.error;
+}
 /// Attempts in a row that gain too little before a run gives up; a single iteration of links may
 /// gain nothing and the next one much.
 constexpr int kGatherPatience = 1, kLinkPatience = 2;
@@ -70,7 +77,8 @@ constexpr double kAimBelow = 0.85;
 /// The first round of cuts takes at most about this part of the time of the gather before it, a
 /// later one up to so many times as long as the one before.
 constexpr double kFirstRound = 0.75, kRoundGrowth = 1.5;
-/// What interpolation may leave at first, of the wanted error; and the rounds of cutting it takes.
+/// What interpolation may leave, of the error that a gather aims at; and the rounds of cutting it
+/// takes.
 constexpr double kInterpolationShare = 0.65;
 constexpr int kCuttingRounds = 5;
 /// Rounds after which one may be enough: the first finds small shadows, the second cuts along them.
@@ -194,9 +202,10 @@ struct HierarchicalRadiosity::Implementation {
   bool EndsHere(bool goOn);
   bool GatherRound(std::optional<GatheredSolution>* solution, double aim, int round,
                    const ProgressCallback& progress);
-  bool EndsAfterGathering(bool isFirst, double seconds, const IterationObserver& observer);
-  bool IsSurelyMet(Verification* verification);
-  bool EndsVerified(Verification* verification);
+  bool EndsAfterRound(double next, const IterationObserver& observer);
+  void GatherUntilMet(const ProgressCallback& progress, const IterationObserver& observer);
+  bool IsSurelyMet(Verification* verification, const ProgressCallback& progress);
+  bool EndsVerified(Verification* verification, const ProgressCallback& progress = {});
   bool HasTimeFor(double seconds) const {
     return !(options.timeLimit > 0 && clock.Seconds() + seconds > options.timeLimit);
   }
@@ -247,14 +256,19 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
     if (threshold <= last && self.options.finalGather) {
       self.linkSolution.reset();
       const auto predicted = [&] {
-        return PredictGatherSeconds(self.hierarchy, self.rayScene, self.light, self.options.error);
+        return PredictGatherSeconds(self.hierarchy, self.rayScene, self.light,
+                                    FirstAim(self.options));
       };
       if (self.options.timeLimit > 0 && !self.HasTimeFor(predicted())) {
         statistics.stoppedBy = "time";
       } else if (!self.memory.HasRoomForGather()) {
         statistics.stoppedBy = "memory";
       } else {
-        this->GatherUntilMet(progress, observer);
+        try {
+          self.GatherUntilMet(progress, observer);
+        } catch (const Cancelled&) {
+          statistics.stoppedBy = "interrupt";
+        }
       }
       break;
     }
@@ -368,31 +382,34 @@ RadiositySolution HierarchicalRadiosity::Implementation::LightOfLinks() {
   return solution;
 }
 
-// Whether what is delivered is good enough before all rounds of cuts are made.
-bool HierarchicalRadiosity::Implementation::IsSurelyMet(Verification* verification) {
-  if (options.verificationPoints <= 0) return false;
+// Whether what is delivered is good enough before all rounds of cuts are made. Throws Cancelled.
+bool HierarchicalRadiosity::Implementation::IsSurelyMet(Verification* verification,
+                                                        const ProgressCallback& progress) {
   ReturnFreedMemory();  // Verification takes the most.
-  const bool isMet =
-      statistics.stages.Time("verification", [&] { return verification->IsSurelyMet(*delivered); });
+  const bool isMet = statistics.stages.Time("verification", [&] {
+    return verification->IsSurelyMet(*delivered, network.rays, progress);
+  });
   statistics.history.back().error = verification->Error();
   return isMet;
 }
 
-// Verifies what is delivered; true, with the reason, where that ends the run.
-bool HierarchicalRadiosity::Implementation::EndsVerified(Verification* verification) {
+// Verifies what is delivered; true, with the reason, where that ends the run. Throws Cancelled.
+bool HierarchicalRadiosity::Implementation::EndsVerified(Verification* verification,
+                                                         const ProgressCallback& progress) {
   if (options.verificationPoints > 0) {
     if (!delivered) delivered = this->Reconstruct();
     ReturnFreedMemory();
-    statistics.history.back().error =
-        statistics.stages.Time("verification", [&] { return verification->Measure(*delivered); });
+    statistics.history.back().error = statistics.stages.Time(
+        "verification", [&] { return verification->Measure(*delivered, progress); });
   }
   statistics.stoppedBy = verification->Verdict();
   return !statistics.stoppedBy.empty();
 }
 
-// The border of an iteration of the gather, which took so long; true where the run ends there.
-bool HierarchicalRadiosity::Implementation::EndsAfterGathering(bool isFirst, double seconds,
-                                                               const IterationObserver& observer) {
+// The border of an iteration of the gather; true where the run ends there, or has no time for
+// another that takes `next` seconds.
+bool HierarchicalRadiosity::Implementation::EndsAfterRound(double next,
+                                                           const IterationObserver& observer) {
   IterationRecord record = statistics.history.back();
   ++record.iteration;
   record.seconds = this->Seconds();
@@ -401,9 +418,7 @@ bool HierarchicalRadiosity::Implementation::EndsAfterGathering(bool isFirst, dou
   statistics.history.push_back(record);
   const bool goOn = !observer || observer(record);
   if (this->EndsHere(goOn)) return true;
-  if (!this->HasTimeFor((isFirst ? kFirstRound : kRoundGrowth) * seconds)) {
-    statistics.stoppedBy = "time";
-  }
+  if (!this->HasTimeFor(next)) statistics.stoppedBy = "time";
   if (!memory.HasRoomForCuts(*delivered)) statistics.stoppedBy = "memory";
   return !statistics.stoppedBy.empty();
 }
@@ -413,72 +428,77 @@ bool HierarchicalRadiosity::Implementation::EndsAfterGathering(bool isFirst, dou
 bool HierarchicalRadiosity::Implementation::GatherRound(std::optional<GatheredSolution>* solution,
                                                         double aim, int round,
                                                         const ProgressCallback& progress) {
-  const GatheredSolutionOptions wanted = GatherFor(aim);
-  const bool isFirst = !solution->has_value();
-  if (isFirst) {
-    statistics.stages.Time("gather at leaves", [&] {
-      solution->emplace(&hierarchy, &light, rayScene, litSides, wanted, &network.rays);
-    });
+  if (round > 0) {
+    const bool isCut = statistics.stages.Time(
+        "cuts", [&] { return (*solution)->Cut(kInterpolationShare * aim, progress); });
+    if (isCut) delivered = (*solution)->Deliver();
+    return isCut;
   }
-  GatheredSolution& gathered = **solution;
-  const bool isDone =
-      round > 0 ? statistics.stages.Time(
-                      "cuts", [&] { return gathered.Cut(kInterpolationShare * aim, progress); })
-                : statistics.stages.Time("gather at points", [&] {
-                    isFirst ? gathered.Gather(progress) : gathered.Improve(wanted.points, progress);
-                    return true;
-                  });
-  if (isDone) delivered = gathered.Deliver();
-  return isDone;
+  const GatheredSolutionOptions gather = GatherFor(aim);
+  if (*solution) {
+    statistics.stages.Time("gather at points",
+                           [&] { (*solution)->Improve(gather.points, progress); });
+  } else {
+    statistics.stages.Time("gather at leaves", [&] {
+      solution->emplace(&hierarchy, &light, rayScene, litSides, gather, &network.rays);
+    });
+    statistics.stages.Time("gather at points", [&] { (*solution)->Gather(progress); });
+  }
+  delivered = (*solution)->Deliver();
+  return true;
 }
 
 // A final gather, on a finer and finer mesh, until the error that was asked for is verified. Each
 // gather and each round of cuts is an iteration. The first gather only aims near what is asked for,
-// and often gives it all the same: a look tells.
-void HierarchicalRadiosity::GatherUntilMet(const ProgressCallback& progress,
-                                           const IterationObserver& observer) {
-  Implementation& self = *implementation_;
-  const double wanted = self.options.error;
-  const bool looks = self.options.cutsTriangles && self.options.verificationPoints > 0;
-  double aim = looks ? kFirstAim * wanted : wanted;
-  Verification verification(self.scene, self.options, kGatherPatience);
+// and often gives it all the same: a look tells. Throws Cancelled.
+void HierarchicalRadiosity::Implementation::GatherUntilMet(const ProgressCallback& progress,
+                                                           const IterationObserver& observer) {
+  Verification verification(scene, options, kGatherPatience);
   std::optional<GatheredSolution> solution;
+  double aim = FirstAim(options), secondsOfGather = 0;
   int cuts = 0;
-  for (int gather = 1; gather <= kMostGathers; ++gather) {
-    const bool isTry = looks && gather == 1;
-    const int rounds = !self.options.cutsTriangles ? 0 : isTry ? kLeastRounds : kCuttingRounds;
+  const int gathers = kMostGathers + (HasTry(options) ? 1 : 0);
+  for (int gather = 1; gather <= gathers; ++gather) {
+    const bool isTry = HasTry(options) && gather == 1;
+    const int rounds = !options.cutsTriangles ? 0 : isTry ? kLeastRounds : kCuttingRounds;
+    double done = 0;
+    const ProgressCallback part = [&](double fraction, const char* stage) {
+      const double all = (gather - 1 + (done + fraction) / (rounds + 1)) / gathers;
+      return Report(progress, 1 - kGatherShare * (1 - std::min(1.0, all)), stage);
+    };
+    const ProgressCallback border = [&](double, const char* stage) { return part(0, stage); };
     bool isSurelyMet = false;
     for (int round = 0; round <= rounds && !isSurelyMet; ++round) {
-      const Timer iterationTimer;
-      const ProgressCallback part = [&](double fraction, const char* stage) {
-        const double done = (gather - 1 + (round + fraction) / (rounds + 1)) / kMostGathers;
-        return Report(progress, 1 - kGatherShare * (1 - std::min(1.0, done)), stage);
-      };
-      bool isDone = false;
-      try {
-        isDone = self.GatherRound(&solution, aim, round, part);
-      } catch (const Cancelled&) {
-        self.statistics.stoppedBy = "interrupt";
-        return;
-      }
-      if (isDone && self.EndsAfterGathering(round == 0, iterationTimer.Seconds(), observer)) return;
-      if (isDone && round > 0) ++cuts;
-      const bool isEnough = cuts >= kLeastRounds || !isDone;
-      const bool isLast = !isTry && (round == rounds || !isDone);
-      isSurelyMet = isEnough && !isLast && self.IsSurelyMet(&verification);
-      if (!isDone) break;
+      const Timer roundTimer;
+      const bool isNew = this->GatherRound(&solution, aim, round, part);
+      done = round + 1;
+      if (round == 0) secondsOfGather = std::max(secondsOfGather, roundTimer.Seconds());
+      const double next =
+          round == 0 ? kFirstRound * secondsOfGather : kRoundGrowth * roundTimer.Seconds();
+      if (isNew && this->EndsAfterRound(next, observer)) return;
+      if (isNew && round > 0) ++cuts;
+
+      // A look, where something may follow.
+      const bool isLast = !isTry && (round == rounds || !isNew);
+      const bool mayBeEnough = cuts >= kLeastRounds || !isNew;
+      isSurelyMet = mayBeEnough && !isLast && this->IsSurelyMet(&verification, border);
+      if (!isNew) break;
     }
-    if (isTry && !isSurelyMet) {
-      aim = wanted;
+    if (isTry && !isSurelyMet && this->HasTimeFor(secondsOfGather)) {
+      aim = options.error;
       continue;
     }
-    if (self.EndsVerified(&verification)) return;
+    if (this->EndsVerified(&verification, border)) return;
+    if (!this->HasTimeFor(secondsOfGather)) {
+      statistics.stoppedBy = "time";
+      return;
+    }
     // More rays take away no more than their scatter.
     const double scatter = NoiseFor(aim), error = verification.Error();
-    if (solution->IsFull() && std::hypot(wanted, scatter) < error) break;
-    aim *= std::min(0.8, std::max(0.35, kAimBelow * wanted / error));
+    if (solution->IsFull() && std::hypot(options.error, scatter) < error) break;
+    aim *= std::min(0.8, std::max(0.35, kAimBelow * options.error / error));
   }
-  self.statistics.stoppedBy = "floor";
+  statistics.stoppedBy = "floor";
 }
 
 bool HierarchicalRadiosity::Relight() {

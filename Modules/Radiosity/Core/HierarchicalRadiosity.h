@@ -92,8 +92,6 @@ class HierarchicalRadiosity {
   const SolverStatistics& Statistics() const;
 
  private:
-  void GatherUntilMet(const ProgressCallback& progress, const IterationObserver& observer);
-
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };

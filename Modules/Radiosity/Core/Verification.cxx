@@ -1,5 +1,7 @@
 #include "Radiosity/Core/Verification.h"
 
+#include <algorithm>
+
 #include "Common/Core/Random.h"
 #include "Radiosity/Core/HierarchicalRadiosity.h"
 
@@ -13,9 +15,14 @@ constexpr double kLeastGain = 0.9;
 constexpr double kVerifiedBelow = 0.95;
 /// Paths a point.
 constexpr int kVerificationSamples = 256;
-/// Up to so many times as many paths where those leave it open whether the request is met, in the
-/// end and at a look before.
+/// At this part of the request it is met, however wide the interval of the rms is.
+constexpr double kClearlyBelow = 0.8;
+/// Up to so many times as many paths where those leave it open whether the request is met; fewer
+/// where a look before the end does.
 constexpr int kVerificationGrowth = 16, kLookGrowth = 4;
+/// Rays that a path takes, about. At a look they are no more than half of those that the solution
+/// took, or as many where they would be asked for in the end.
+constexpr double kRaysOfPath = 8;
 
 }  // namespace
 
@@ -29,30 +36,37 @@ ErrorPoints& Verification::Points() {
   return points_.emplace(scene_, verification);
 }
 
-double Verification::Measure(const RadiositySolution& solution) {
+double Verification::Measure(const RadiositySolution& solution, const ProgressCallback& progress) {
   const int growth = options_.timeLimit > 0 ? 1 : kVerificationGrowth;
   const auto isMet = [&](const SolutionError& e) { return e.Counting() <= this->Below(); };
-  this->Note(this->Points().Measure(solution, growth, isMet).Counting());
+  this->Note(this->Points().Measure(solution, growth, isMet, progress).Counting());
   points_.reset();
   return error_;
 }
 
-// More points take less time than another round, and tell of all that follow. Where the interval of
-// the rms leaves it open there are some more; where only its width keeps the rms from counting, as
-// many as in the end.
-bool Verification::IsSurelyMet(const RadiositySolution& solution) {
+// More points may take less time than another round, and tell of all that follow. Where the request
+// lies within a wide interval of the rms there are some more; where only its width keeps the rms
+// from counting, as many as in the end.
+bool Verification::IsSurelyMet(const RadiositySolution& solution, int64_t rays,
+                               const ProgressCallback& progress) {
   const auto isMet = [&](const SolutionError& e) { return e.rmsHigh <= options_.error; };
   const auto isSure = [&](const SolutionError& e) {
-    return isMet(e) && e.Counting() <= this->Below();
+    const double error = e.Counting();
+    return isMet(e) ? error <= this->Below() : error <= kClearlyBelow * options_.error;
   };
   const auto isDecided = [&](const SolutionError& e) {
-    return isMet(e) || e.rmsLow > this->Below();
+    return isSure(e) || isMet(e) || e.rmsLow > this->Below();
   };
-  const bool hasTime = !(options_.timeLimit > 0);
-  SolutionError error = this->Points().Measure(solution, hasTime ? kLookGrowth : 1, isDecided);
-  if (hasTime && isMet(error)) {
-    const auto isKnown = [&](const SolutionError& e) { return isSure(e) || !isMet(e); };
-    error = this->Points().Measure(solution, kVerificationGrowth, isKnown);
+  const auto isKnown = [&](const SolutionError& e) { return isSure(e) || !isMet(e); };
+  const double paths = double(options_.verificationPoints) * kVerificationSamples;
+  const auto growth = [&](double share, int most) {
+    const double affordable = share * double(rays) / (kRaysOfPath * paths);
+    return options_.timeLimit > 0 ? 1 : int(std::clamp(affordable, 1., double(most)));
+  };
+  SolutionError error =
+      this->Points().Measure(solution, growth(0.5, kLookGrowth), isDecided, progress);
+  if (!isKnown(error)) {
+    error = this->Points().Measure(solution, growth(1, kVerificationGrowth), isKnown, progress);
   }
   error_ = error.Counting();
   return isSure(error);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "Common/Core/Progress.h"
 #include "Reference/Core/ErrorPoints.h"
 #include "Scene/Core/RadiositySolution.h"
 #include "Scene/Core/Scene.h"
@@ -20,11 +21,14 @@ class Verification {
   Verification(const Scene& scene, const HierarchicalRadiosityOptions& options, int patience)
       : scene_(scene), options_(options), patience_(patience) {}
 
-  /// Error of `solution`, the one that counts, at points of its own for every attempt.
-  double Measure(const RadiositySolution& solution);
+  /// Error of `solution`, the one that counts, at points of its own for every attempt. Throws
+  /// Cancelled.
+  double Measure(const RadiositySolution& solution, const ProgressCallback& progress = {});
   /// Whether the error of `solution`, the one that counts, is the wanted one, and the rms even at
-  /// the upper end of its interval; at the points of the next attempt.
-  bool IsSurelyMet(const RadiositySolution& solution);
+  /// the upper end of its interval; or is far below. At the points of the next attempt, of which
+  /// there are more where `rays` that the solution took can pay for them. Throws Cancelled.
+  bool IsSurelyMet(const RadiositySolution& solution, int64_t rays,
+                   const ProgressCallback& progress = {});
   /// Counts the attempts that a history tells of as made.
   void Recall(const std::vector<IterationRecord>& history);
 

@@ -99,6 +99,7 @@ TEST_F(GatheredPointsTest, AreImprovedByTheRaysThatTheyLack) {
   const double before = scatter();
   GatheredPointsOptions tight = loose;
   tight.noise = 1e-3;
+  tight.firstRays = 16;
   const int64_t raysBefore = rays;
   gathered.Improve(tight, &rays);
   EXPECT_GE(rays - raysBefore, tight.mostRays / 2 * kPoints);

@@ -46,13 +46,49 @@ TEST(VerificationTest, IsSureWhereTheWholeIntervalIsMet) {
   options.verificationPoints = 500;
   options.error = 0.12;
   Verification loose(scene, options, 1);
-  EXPECT_TRUE(loose.IsSurelyMet(solution));
+  EXPECT_TRUE(loose.IsSurelyMet(solution, 0));
   const double looked = loose.Error();
   EXPECT_EQ(loose.Measure(solution), looked) << "at the same points";
   EXPECT_EQ(loose.Verdict(), "error");
   options.error = 0.1;
   Verification tight(scene, options, 1);
-  EXPECT_FALSE(tight.IsSurelyMet(solution));
+  EXPECT_FALSE(tight.IsSurelyMet(solution, 0));
+}
+
+/// What a look finds of a furnace a 25th of which is twice as bright, an rms of 0.2 that few points
+/// hold; `isMet` tells whether it is met.
+double LookedAt(const HierarchicalRadiosityOptions& options, int64_t rays, bool* isMet) {
+  const Scene scene = testing::BlackFurnace();
+  Verification verification(scene, options, 1);
+  *isMet = verification.IsSurelyMet(testing::WithBrightPatch(scene), rays);
+  return verification.Error();
+}
+
+TEST(VerificationTest, MorePointsDecideWhereTheRaysOfTheSolutionPayForThem) {
+  HierarchicalRadiosityOptions options;
+  options.verificationPoints = 500;
+  bool isMet = false;
+  options.error = LookedAt(options, 0, &isMet);  // It lies within the interval.
+  const double few = LookedAt(options, 0, &isMet);
+  EXPECT_FALSE(isMet);
+  EXPECT_NE(LookedAt(options, 1'000'000'000, &isMet), few);
+  options.timeLimit = 100;
+  EXPECT_EQ(LookedAt(options, 1'000'000'000, &isMet), few) << "a time limit has none for more";
+}
+
+TEST(VerificationTest, IsSureFarBelowTheRequestHoweverWideTheInterval) {
+  // By so few points that the interval ends half as high again as the error.
+  HierarchicalRadiosityOptions options;
+  options.verificationPoints = 100;
+  bool isMet = false;
+  options.error = LookedAt(options, 0, &isMet);
+  const double error = options.error;
+  options.error = 1.2 * error;
+  EXPECT_EQ(LookedAt(options, 0, &isMet), error);
+  EXPECT_FALSE(isMet);
+  options.error = 1.3 * error;
+  EXPECT_EQ(LookedAt(options, 0, &isMet), error);
+  EXPECT_TRUE(isMet);
 }
 
 }  // namespace
