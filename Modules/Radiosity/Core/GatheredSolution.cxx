@@ -21,6 +21,10 @@ constexpr int kMostOfFirst = 32;
 /// Blotches are seen where the rest of a coarse solution is not: scatter is kept low there too.
 constexpr double kMostNoise = 0.08;
 
+/// Each round of cuts may add as much scatter as the first gather leaves. Where points of several
+/// rounds are improved together, so many times that is what all may leave.
+constexpr double kNoiseOfRounds = 1.5;
+
 /// Points that are gathered at to predict how long all take, and the reserve for what they leave
 /// out (leaves).
 constexpr int64_t kTrialPoints = 1024;
@@ -106,7 +110,9 @@ void GatheredSolution::Improve(const GatheredPointsOptions& options,
     self.gather.GatherAtLeaves(more, double(more) / self.leafRays,
                                HashBits(self.seed, improved + 1), self.rays);
   }
-  self.mesh->Improve(options, self.rays, progress);
+  GatheredPointsOptions ofAll = options;
+  ofAll.noise = kNoiseOfRounds * options.noise;
+  self.mesh->Improve(ofAll, self.rays, progress);
   self.mesh->GatherAtPoints(self.rays, progress);
 }
 
