@@ -55,9 +55,8 @@ class LAMBERTRADIOSITY_EXPORT vtkHierarchicalRadiosity : public vtkRadiosityAlgo
   ///@}
   ///@{ Points at which a path trace verifies the delivered error after every final gather, which is
   /// repeated on a finer mesh until the error is met, and tells from its second round of cuts on
-  /// whether more are needed; [0, inf), default 2000. The column `error` of the history has what was
-  /// found. 0: nothing is verified, one gather is made that usually gives
-  /// the error.
+  /// whether more are needed; [0, inf), default 2000. The column `error` of the history has what
+  /// was found. 0: nothing is verified, one gather is made that usually gives the error.
   void SetVerificationPoints(int points);
   int GetVerificationPoints();
   ///@}

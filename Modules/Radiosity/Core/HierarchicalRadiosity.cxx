@@ -3,23 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/MemoryCeiling.h"
-#include "Common/Core/Timer.h"
 #include "Radiosity/Core/ElementCounts.h"
 #include "Radiosity/Core/EnergyBalance.h"
-#include "Radiosity/Core/ExposureSplitting.h"
-#include "Radiosity/Core/GatheredSolution.h"
+#include "Radiosity/Core/HierarchicalRadiosityImplementation.h"
 #include "Radiosity/Core/LightExchange.h"
-#include "Radiosity/Core/LinkRefinement.h"
-#include "Radiosity/Core/LinkSolution.h"
 #include "Radiosity/Core/LitSides.h"
-#include "Radiosity/Core/SolverMemory.h"
-#include "Radiosity/Core/SolverState.h"
-#include "Radiosity/Core/Verification.h"
-#include "Visibility/Core/RayScene.h"
 
 namespace lambert {
 
@@ -47,8 +38,8 @@ double FinalThreshold(const HierarchicalRadiosityOptions& options) {
   return 1.6e-5 * std::pow(error / 0.05, 1.5);
 }
 
-/// Shares of the progress: of the final gather, or else of links beyond the usual threshold.
-constexpr double kGatherShare = 0.6, kFurtherShare = 0.5;
+/// Share of the progress, without a final gather, of links beyond the usual threshold.
+constexpr double kFurtherShare = 0.5;
 /// Progress after `done` iterations of links, where the usual threshold takes `usual`; each one
 /// beyond it halves what is left.
 double LinkProgress(const HierarchicalRadiosityOptions& options, double done, int usual) {
@@ -58,31 +49,9 @@ double LinkProgress(const HierarchicalRadiosityOptions& options, double done, in
                       : 1 - kFurtherShare * std::exp2(usual - done);
 }
 
-/// Gathers, each with its rounds of cuts, before it is said that the error cannot be met.
-constexpr int kMostGathers = 4;
-/// One before them, with the fewest rounds, aims at so many times the wanted error.
-constexpr double kTriedAim = 1.4;
-/// Whether there is one: where somebody looks at what it gives, and rounds may follow.
-bool HasTry(const HierarchicalRadiosityOptions& options) {
-  return options.cutsTriangles && options.verificationPoints > 0;
-}
-double FirstAim(const HierarchicalRadiosityOptions& options) {
-  return HasTry(options) ? std::min(1.0, kTriedAim * options.error) : options.error;
-}
-/// Attempts in a row that gain too little before a run gives up; a single iteration of links may
+/// Attempts in a row that gain too little before a run gives up: a single iteration of links may
 /// gain nothing and the next one much.
-constexpr int kGatherPatience = 1, kLinkPatience = 2;
-/// The next gather aims this far below the wanted error.
-constexpr double kAimBelow = 0.85;
-/// The first round of cuts takes at most about this part of the time of the gather before it, a
-/// later one up to so many times as long as the one before.
-constexpr double kFirstRound = 0.75, kRoundGrowth = 1.5;
-/// What interpolation may leave, of the error that a gather aims at; and the rounds of cutting it
-/// takes.
-constexpr double kInterpolationShare = 0.65;
-constexpr int kCuttingRounds = 5;
-/// Rounds after which one may be enough: the first finds small shadows, the second cuts along them.
-constexpr int kLeastRounds = 2;
+constexpr int kLinkPatience = 2;
 
 /// Power of all sources, W, largest band: a first guess of what surfaces receive. Skies and suns
 /// count over the bounds.
@@ -128,88 +97,44 @@ static const Scene& Checked(const Scene& scene) {
   return scene;
 }
 
-struct HierarchicalRadiosity::Implementation {
-  Implementation(const Scene& scene_, const ClusterTree& tree,
-                 const HierarchicalRadiosityOptions& options_)
-      : scene(Checked(scene_)),
-        options(options_),
-        emittingSides(EmittingSides(scene_.mesh)),
-        rayScene(statistics.stages.Time("rays", [&] { return RayScene(scene_.mesh); })),
-        litSides(statistics.stages.Time(
-            "lit sides", [&] { return FindLitSides(scene_, tree, rayScene, &statistics.rays); })),
-        hierarchy(statistics.stages.Time(
-            "elements",
-            [&] { return ElementHierarchy(scene_, tree, litSides, options_.leafMesh); })),
-        oracle(MakeRefinementOracle(options_.oracle, hierarchy, rayScene)),
-        memory(options_.memoryLimit, hierarchy, litSides),
-        received(SourcePower(scene_)) {
-    if (!(options.error > 0 && options.error <= 1)) {
-      throw Error("The wanted error is " + std::to_string(options.error) +
-                  "; give a fraction above 0 and at most 1.");
-    }
-    light.Grow(hierarchy);
-    MakeInitialLinks(hierarchy, &network);
-    network.rays = statistics.rays;
-    if (options.resume.empty()) return;
-    SolverState state = this->State();
-    LoadSolverState(options.resume, &state);
-    secondsBefore = statistics.history.back().seconds;
-    if (statistics.history.size() > 1) before = statistics.history[statistics.history.size() - 2];
+HierarchicalRadiosity::Implementation::Implementation(const Scene& scene_, const ClusterTree& tree,
+                                                      const HierarchicalRadiosityOptions& options_)
+    : scene(Checked(scene_)),
+      options(options_),
+      emittingSides(EmittingSides(scene_.mesh)),
+      rayScene(statistics.stages.Time("rays", [&] { return RayScene(scene_.mesh); })),
+      litSides(statistics.stages.Time(
+          "lit sides", [&] { return FindLitSides(scene_, tree, rayScene, &statistics.rays); })),
+      hierarchy(statistics.stages.Time(
+          "elements", [&] { return ElementHierarchy(scene_, tree, litSides, options_.leafMesh); })),
+      oracle(MakeRefinementOracle(options_.oracle, hierarchy, rayScene)),
+      memory(options_.memoryLimit, hierarchy, litSides),
+      firstThreshold(kFirstThreshold),
+      received(SourcePower(scene_)) {
+  if (!(options.error > 0 && options.error <= 1)) {
+    throw Error("The wanted error is " + std::to_string(options.error) +
+                "; give a fraction above 0 and at most 1.");
   }
+  light.Grow(hierarchy);
+  MakeInitialLinks(hierarchy, &network);
+  network.rays = statistics.rays;
+  if (options.resume.empty()) return;
+  SolverState state = this->State();
+  LoadSolverState(options.resume, &state);
+  secondsBefore = statistics.history.back().seconds;
+  if (statistics.history.size() > 1) before = statistics.history[statistics.history.size() - 2];
+}
 
-  const Scene& scene;
-  const HierarchicalRadiosityOptions options;
-  std::vector<uint8_t> emittingSides;  ///< per face
-  SolverStatistics statistics;
-  RayScene rayScene;
-  std::vector<uint8_t> litSides;
-  ElementHierarchy hierarchy;
-  std::unique_ptr<RefinementOracle> oracle;
-  ElementLight light;
-  LinkNetwork network;
-  std::vector<Exposure> exposures;
-  std::optional<RadiositySolution> delivered;  ///< once gathered or verified
-  std::unique_ptr<LinkSolution> linkSolution;  ///< while its links are these
-  const SolverMemory memory;
-  double firstThreshold = kFirstThreshold;
-  std::optional<IterationRecord> before;  ///< the iteration of links before the last
-  bool isFull = false;                    ///< the last refinement found no room
-  Timer clock;                            ///< since the run began
-  double secondsBefore = 0;               ///< of the runs that this one goes on from
-  /// Power that the leaves receive, W, largest band; thresholds are fractions of it.
-  double received;
-
-  SolverState State() {
-    return {hierarchy, light, network, exposures, received, statistics.history};
+// What cannot be saved must not take with it what is solved.
+void HierarchicalRadiosity::Implementation::SaveState() {
+  if (options.saveState.empty()) return;
+  try {
+    SaveSolverState(this->State(), options.saveState);
+    statistics.stateFailure.clear();
+  } catch (const Error& error) {
+    statistics.stateFailure = error.what();
   }
-  /// What cannot be saved must not take with it what is solved.
-  void SaveState() {
-    if (options.saveState.empty()) return;
-    try {
-      SaveSolverState(this->State(), options.saveState);
-      statistics.stateFailure.clear();
-    } catch (const Error& error) {
-      statistics.stateFailure = error.what();
-    }
-  }
-  double Seconds() const { return secondsBefore + clock.Seconds(); }
-  bool RefineAndExchange(double last, double* threshold, double* change,
-                         const ProgressCallback& progress);
-  double Exchange(double tolerance);
-  double Bounce(double tolerance);
-  RadiositySolution Reconstruct();
-  RadiositySolution LightOfLinks();
-  bool EndsHere(bool goOn);
-  bool GatherRound(std::optional<GatheredSolution>* solution, double aim, int round,
-                   const ProgressCallback& progress);
-  bool EndsAfterRound(double next, const IterationObserver& observer);
-  void GatherUntilMet(const ProgressCallback& progress, const IterationObserver& observer);
-  bool IsSurelyMet(Verification* verification, const ProgressCallback& progress);
-  bool EndsVerified(Verification* verification, const ProgressCallback& progress = {});
-  bool HasTimeFor(double seconds) const {
-    return !(options.timeLimit > 0 && clock.Seconds() + seconds > options.timeLimit);
-  }
-};
+}
 
 HierarchicalRadiosity::HierarchicalRadiosity(const Scene& scene, const ClusterTree& tree,
                                              const HierarchicalRadiosityOptions& options)
@@ -256,8 +181,7 @@ void HierarchicalRadiosity::Run(const ProgressCallback& progress,
     if (threshold <= last && self.options.finalGather) {
       self.linkSolution.reset();
       const auto predicted = [&] {
-        return PredictGatherSeconds(self.hierarchy, self.rayScene, self.light,
-                                    FirstAim(self.options));
+        return PredictGatherSeconds(self.hierarchy, self.rayScene, self.light, self.FirstAim());
       };
       if (self.options.timeLimit > 0 && !self.HasTimeFor(predicted())) {
         statistics.stoppedBy = "time";
@@ -382,17 +306,6 @@ RadiositySolution HierarchicalRadiosity::Implementation::LightOfLinks() {
   return solution;
 }
 
-// Whether what is delivered is good enough before all rounds of cuts are made. Throws Cancelled.
-bool HierarchicalRadiosity::Implementation::IsSurelyMet(Verification* verification,
-                                                        const ProgressCallback& progress) {
-  ReturnFreedMemory();  // Verification takes the most.
-  const bool isMet = statistics.stages.Time("verification", [&] {
-    return verification->IsSurelyMet(*delivered, network.rays, progress);
-  });
-  statistics.history.back().error = verification->Error();
-  return isMet;
-}
-
 // Verifies what is delivered; true, with the reason, where that ends the run. Throws Cancelled.
 bool HierarchicalRadiosity::Implementation::EndsVerified(Verification* verification,
                                                          const ProgressCallback& progress) {
@@ -404,101 +317,6 @@ bool HierarchicalRadiosity::Implementation::EndsVerified(Verification* verificat
   }
   statistics.stoppedBy = verification->Verdict();
   return !statistics.stoppedBy.empty();
-}
-
-// The border of an iteration of the gather; true where the run ends there, or has no time for
-// another that takes `next` seconds.
-bool HierarchicalRadiosity::Implementation::EndsAfterRound(double next,
-                                                           const IterationObserver& observer) {
-  IterationRecord record = statistics.history.back();
-  ++record.iteration;
-  record.seconds = this->Seconds();
-  record.rays = network.rays;
-  record.error = -1;
-  statistics.history.push_back(record);
-  const bool goOn = !observer || observer(record);
-  if (this->EndsHere(goOn)) return true;
-  if (!this->HasTimeFor(next)) statistics.stoppedBy = "time";
-  if (!memory.HasRoomForCuts(*delivered)) statistics.stoppedBy = "memory";
-  return !statistics.stoppedBy.empty();
-}
-
-// Gathers at the points in round 0, and cuts triangles in every other; false where nothing is left
-// to cut. Throws Cancelled.
-bool HierarchicalRadiosity::Implementation::GatherRound(std::optional<GatheredSolution>* solution,
-                                                        double aim, int round,
-                                                        const ProgressCallback& progress) {
-  if (round > 0) {
-    const bool isCut = statistics.stages.Time(
-        "cuts", [&] { return (*solution)->Cut(kInterpolationShare * aim, progress); });
-    if (isCut) delivered = (*solution)->Deliver();
-    return isCut;
-  }
-  const GatheredSolutionOptions gather = GatherFor(aim);
-  if (*solution) {
-    statistics.stages.Time("gather at points",
-                           [&] { (*solution)->Improve(gather.points, progress); });
-  } else {
-    statistics.stages.Time("gather at leaves", [&] {
-      solution->emplace(&hierarchy, &light, rayScene, litSides, gather, &network.rays);
-    });
-    statistics.stages.Time("gather at points", [&] { (*solution)->Gather(progress); });
-  }
-  delivered = (*solution)->Deliver();
-  return true;
-}
-
-// A final gather, on a finer and finer mesh, until the error that was asked for is verified. Each
-// gather and each round of cuts is an iteration. The first gather only aims near what is asked for,
-// and often gives it all the same: a look tells. Throws Cancelled.
-void HierarchicalRadiosity::Implementation::GatherUntilMet(const ProgressCallback& progress,
-                                                           const IterationObserver& observer) {
-  Verification verification(scene, options, kGatherPatience);
-  std::optional<GatheredSolution> solution;
-  double aim = FirstAim(options), secondsOfGather = 0;
-  int cuts = 0;
-  const int gathers = kMostGathers + (HasTry(options) ? 1 : 0);
-  for (int gather = 1; gather <= gathers; ++gather) {
-    const bool isTry = HasTry(options) && gather == 1;
-    const int rounds = !options.cutsTriangles ? 0 : isTry ? kLeastRounds : kCuttingRounds;
-    double done = 0;
-    const ProgressCallback part = [&](double fraction, const char* stage) {
-      const double all = (gather - 1 + (done + fraction) / (rounds + 1)) / gathers;
-      return Report(progress, 1 - kGatherShare * (1 - std::min(1.0, all)), stage);
-    };
-    const ProgressCallback border = [&](double, const char* stage) { return part(0, stage); };
-    bool isSurelyMet = false;
-    for (int round = 0; round <= rounds && !isSurelyMet; ++round) {
-      const Timer roundTimer;
-      const bool isNew = this->GatherRound(&solution, aim, round, part);
-      done = round + 1;
-      if (round == 0) secondsOfGather = std::max(secondsOfGather, roundTimer.Seconds());
-      const double next =
-          round == 0 ? kFirstRound * secondsOfGather : kRoundGrowth * roundTimer.Seconds();
-      if (isNew && this->EndsAfterRound(next, observer)) return;
-      if (isNew && round > 0) ++cuts;
-
-      // A look, where something may follow.
-      const bool isLast = !isTry && (round == rounds || !isNew);
-      const bool mayBeEnough = cuts >= kLeastRounds || !isNew;
-      isSurelyMet = mayBeEnough && !isLast && this->IsSurelyMet(&verification, border);
-      if (!isNew) break;
-    }
-    if (isTry && !isSurelyMet && this->HasTimeFor(secondsOfGather)) {
-      aim = options.error;
-      continue;
-    }
-    if (this->EndsVerified(&verification, border)) return;
-    if (!this->HasTimeFor(secondsOfGather)) {
-      statistics.stoppedBy = "time";
-      return;
-    }
-    // More rays take away no more than their scatter.
-    const double scatter = NoiseFor(aim), error = verification.Error();
-    if (solution->IsFull() && std::hypot(options.error, scatter) < error) break;
-    aim *= std::min(0.8, std::max(0.35, kAimBelow * options.error / error));
-  }
-  statistics.stoppedBy = "floor";
 }
 
 bool HierarchicalRadiosity::Relight() {

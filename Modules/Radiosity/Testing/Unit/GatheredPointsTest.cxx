@@ -20,6 +20,13 @@ void AddPoints(float x, int count, float area, std::vector<GatheredPoints::Point
   }
 }
 
+/// Points below the small bright square.
+std::vector<GatheredPoints::Point> PointsBelow() {
+  std::vector<GatheredPoints::Point> points;
+  AddPoints(0, 300, 1, &points);
+  return points;
+}
+
 /// A small bright square above the origin, and a large lamp far from it; one light that hardly
 /// sends any, as nothing bounds what lights bring.
 class GatheredPointsTest : public ::testing::Test {
@@ -71,22 +78,18 @@ TEST_F(GatheredPointsTest, ScatterIsNotSeenWhereItCountsLittle) {
 
 // One ray in many meets the square, so that hardly any number of them is enough.
 TEST_F(GatheredPointsTest, ThoseThatWantTheMostRaysGetThem) {
-  std::vector<GatheredPoints::Point> points;
-  constexpr int kPoints = 300;
-  AddPoints(0, kPoints, 1, &points);
+  const std::vector<GatheredPoints::Point> points = PointsBelow();
   GatheredPointsOptions options;
   options.mostRays = 64;
   options.noise = 1e-3;
   GatheredPoints gathered(*gather_, options);
   int64_t rays = 0;
   gathered.At(points, &rays);
-  EXPECT_GE(rays, options.mostRays / 2 * kPoints);
+  EXPECT_GE(rays, options.mostRays / 2 * int64_t(points.size()));
 }
 
 TEST_F(GatheredPointsTest, AreImprovedByTheRaysThatTheyLack) {
-  std::vector<GatheredPoints::Point> points;
-  constexpr int kPoints = 300;
-  AddPoints(0, kPoints, 1, &points);
+  const std::vector<GatheredPoints::Point> points = PointsBelow();
   GatheredPointsOptions loose;
   loose.noise = 1;
   GatheredPoints gathered(*gather_, loose);
@@ -102,7 +105,7 @@ TEST_F(GatheredPointsTest, AreImprovedByTheRaysThatTheyLack) {
   tight.firstRays = 16;
   const int64_t raysBefore = rays;
   gathered.Improve(tight, &rays);
-  EXPECT_GE(rays - raysBefore, tight.mostRays / 2 * kPoints);
+  EXPECT_GE(rays - raysBefore, tight.mostRays / 2 * int64_t(points.size()));
   EXPECT_LT(scatter(), 0.25 * before);
 
   // They lack nothing more.
